@@ -1,0 +1,1 @@
+# Install target and exported package; written with the set-up work.

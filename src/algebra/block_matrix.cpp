@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/algebra/block_matrix.h"
+
+#include <algorithm>
+
+namespace invsim {
+
+int BlockPattern::Find(int i, int j) const {
+  const auto first = column.begin() + row_start[i];
+  const auto last = column.begin() + row_start[i + 1];
+  const auto it = std::lower_bound(first, last, j);
+  return it != last && *it == j ? static_cast<int>(it - column.begin()) : -1;
+}
+
+void BlockPatternBuilder::AddStencil(std::span<const int> vertices) {
+  for (int i : vertices)
+    for (int j : vertices)
+      if (i != j) neighbours_[i].push_back(j);
+}
+
+std::shared_ptr<const BlockPattern> BlockPatternBuilder::Build() const {
+  auto pattern = std::make_shared<BlockPattern>();
+  pattern->size = static_cast<int>(neighbours_.size());
+  pattern->row_start.push_back(0);
+  for (int i = 0; i < pattern->size; ++i) {
+    std::vector<int> row = neighbours_[i];
+    row.push_back(i);
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    pattern->column.insert(pattern->column.end(), row.begin(), row.end());
+    pattern->row_start.push_back(static_cast<int>(pattern->column.size()));
+  }
+  return pattern;
+}
+
+BlockMatrix::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
+    : pattern_(std::move(pattern)) {
+  values_.assign(9 * static_cast<size_t>(pattern_->num_blocks()), 0.0);
+  diagonal_.resize(pattern_->size);
+  for (int i = 0; i < pattern_->size; ++i) diagonal_[i] = pattern_->Find(i, i);
+}
+
+void BlockMatrix::SetZero() { std::fill(values_.begin(), values_.end(), 0.0); }
+
+void BlockMatrix::Multiply(const MatrixXd& x, MatrixXd* y) const {
+  y->setZero(x.rows(), x.cols());
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    for (int i = 0; i < size(); ++i) {
+      Vector3d sum = Vector3d::Zero();
+      for (int k = pattern_->row_start[i]; k < pattern_->row_start[i + 1]; ++k)
+        sum.noalias() +=
+            block(k) * x.col(c).segment<3>(3 * pattern_->column[k]);
+      y->col(c).segment<3>(3 * i) = sum;
+    }
+  }
+}
+
+void BlockMatrix::MultiplyTransposed(const MatrixXd& x, MatrixXd* y) const {
+  y->setZero(x.rows(), x.cols());
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    for (int i = 0; i < size(); ++i) {
+      const Vector3d xi = x.col(c).segment<3>(3 * i);
+      for (int k = pattern_->row_start[i]; k < pattern_->row_start[i + 1]; ++k)
+        y->col(c).segment<3>(3 * pattern_->column[k]).noalias() +=
+            block(k).transpose() * xi;
+    }
+  }
+}
+
+VectorXd BlockMatrix::operator*(const VectorXd& x) const {
+  VectorXd y(x.size());
+  for (int i = 0; i < size(); ++i) {
+    Vector3d sum = Vector3d::Zero();
+    for (int k = pattern_->row_start[i]; k < pattern_->row_start[i + 1]; ++k)
+      sum.noalias() += block(k) * x.segment<3>(3 * pattern_->column[k]);
+    y.segment<3>(3 * i) = sum;
+  }
+  return y;
+}
+
+void BlockMatrix::AddScaled(double scale, const BlockMatrix& other) {
+  for (size_t k = 0; k < values_.size(); ++k)
+    values_[k] += scale * other.values_[k];
+}
+
+}  // namespace invsim

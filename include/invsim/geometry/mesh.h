@@ -25,10 +25,18 @@ VectorXd FaceAreas(const Points& vertices, const Faces& faces);
 // inside and outside at a vertex (Baerentzen & Aanaes 2005).
 Points VertexNormals(const Points& vertices, const Faces& faces);
 
+// The angle of face `face` at its corner 0, 1 or 2, radians in [0, pi]; zero if
+// a side at the corner has no length.
+double CornerAngle(const Points& vertices,
+                   const Faces& faces,
+                   Eigen::Index face,
+                   int corner);
+
 // An edge (a, b), a < b, with the face on each side. For a face the vertex
 // opposite the edge is kept too: hinge (a, b, opposite[0], opposite[1]). On
 // faces[0] the edge runs a -> b counter-clockwise, on faces[1] b -> a, if the
-// mesh is consistently oriented. faces[1] = opposite[1] = -1 on a boundary.
+// mesh is consistently oriented. faces[1] = opposite[1] = -1 on a boundary,
+// where faces[0] may run either way.
 struct Edge {
   int a;
   int b;
@@ -37,7 +45,8 @@ struct Edge {
 };
 
 // All edges, sorted by (a, b). Throws InputError naming the edge if more than
-// two faces meet at it or two faces run along it the same way.
+// two faces meet at it or two faces run along it the same way, and naming the
+// face if it has a vertex twice. Numbers in messages count from 0.
 std::vector<Edge> Edges(const Faces& faces);
 
 }  // namespace invsim

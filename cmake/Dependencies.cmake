@@ -52,9 +52,11 @@ if(INVSIM_NATIVE)
 endif()
 set(INVSIM_WARNINGS -Wall -Wextra -Wshadow -Wno-unused-parameter)
 # GCC 12 gives false alarms about Eigen's AVX-512 kernels on small matrices
-# (its own intrinsics start from an undefined register).
+# (its own intrinsics start from an undefined register) and about
+# `"text" + std::string` (its bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  list(APPEND INVSIM_WARNINGS -Wno-maybe-uninitialized -Wno-array-bounds)
+  list(APPEND INVSIM_WARNINGS
+       -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict)
 endif()
 if(INVSIM_WERROR)
   list(APPEND INVSIM_WARNINGS -Werror)

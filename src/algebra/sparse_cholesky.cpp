@@ -55,8 +55,8 @@ bool SparseCholesky::Factor(const BlockMatrix& a) {
   CholmodAnalysis& s = impl_->analysis;
   if (!s.Load(a)) return false;
   cholmod_factorize(s.lower(), s.factor(), s.common());
-  const bool ok = s.common()->status == CHOLMOD_OK &&
-                  s.factor()->minor == s.factor()->n;
+  const bool ok =
+      s.common()->status == CHOLMOD_OK && s.factor()->minor == s.factor()->n;
   s.common()->status = CHOLMOD_OK;
   return ok;
 }

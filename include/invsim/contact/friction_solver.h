@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_CONTACT_FRICTION_SOLVER_H_
+#define INVSIM_CONTACT_FRICTION_SOLVER_H_
+
+// The frictional problem of one sub-step: find v and contact forces r with
+//
+//   A v = b + sum_i G_i^T r_i,     Phi(r_i, G_i v - w_i + c_i r_i) = 0,
+//
+// A symmetric positive definite, G_i v the weighted velocity of contact i.
+// On a vertex with one exact contact r is eliminated, r = (A v - b) there, so
+// no contact unknown enters the matrix.
+//
+// Method. P = A + sum rho_i G_i^T G_i is factorised once, rho_i the vertex's
+// own diagonal of A. A few ADMM iterations with P (closed-form local Coulomb
+// projections) find which contacts stick and slide; semismooth Newton on the
+// Alart-Curnier form finishes, its linear systems solved by GMRES with P as
+// preconditioner. If Newton does not reach the tolerance, ADMM goes on from
+// the best iterate and Newton is tried again; what is left is reported.
+
+#include <memory>
+#include <vector>
+
+#include "invsim/algebra/block_matrix.h"
+#include "invsim/contact/contact.h"
+#include "invsim/contact/coulomb.h"
+
+namespace invsim {
+
+struct FrictionOptions {
+  // |Phi| of every contact and the momentum of every free vertex, in units of
+  // the vertex's weight.
+  double tolerance = 1e-6;
+  // ADMM iterations before Newton. Each costs one solve.
+  int admm_iterations = 20;
+  // Newton iterations before ADMM is asked again, and how often it is asked.
+  int newton_iterations = 30;
+  int retries = 3;
+  // Relative reduction of the linear residual in a Newton iteration.
+  double krylov_tolerance = 1e-2;
+  int krylov_iterations = 150;
+};
+
+struct FrictionStats {
+  bool converged = false;
+  bool factorization_failed = false;
+  double residual = 0;  // see FrictionOptions::tolerance
+  int factorizations = 0;
+  int solves = 0;  // triangular solves with one right side
+  int admm_iterations = 0;
+  int newton_iterations = 0;
+  int open = 0, stick = 0, slide = 0;
+  double factor_seconds = 0;
+  double solve_seconds = 0;
+};
+
+struct FrictionProblem {
+  const BlockMatrix* a;
+  const VectorXd* b;                     // N
+  const std::vector<Contact>* contacts;  // at most one exact one on a vertex
+  const VectorXd* weight;                // N per vertex, the unit of residuals
+};
+
+class FrictionSolver {
+ public:
+  explicit FrictionSolver(std::shared_ptr<const BlockPattern> pattern);
+  ~FrictionSolver();
+
+  // `v` and `forces` (one per contact, N) are the start and the result.
+  FrictionStats Solve(const FrictionProblem& problem,
+                      const FrictionOptions& options,
+                      VectorXd* v,
+                      std::vector<Vector3d>* forces);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace invsim
+
+#endif  // INVSIM_CONTACT_FRICTION_SOLVER_H_

@@ -5,8 +5,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -142,7 +142,7 @@ Config Config::FromFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  if (!file || file.bad())
+  if (!file || std::filesystem::is_directory(path))
     throw UsageError(path + ": cannot be read; expected a TOML file");
   return FromText(text.str(), path);
 }

@@ -4,7 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "invsim/base/error.h"
@@ -79,12 +80,25 @@ TEST(ConfigTest, RefusesValuesNoOptionHas) {
 }
 
 TEST(ConfigTest, NamesAFileThatCannotBeRead) {
-  try {
-    Config::FromFile("no/such/file.toml");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), StartsWith("no/such/file.toml: cannot be read"));
+  for (const std::string& path :
+       {std::string("no/such/file.toml"), testing::TempDir()}) {
+    try {
+      Config::FromFile(path);
+      FAIL() << path;
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), StartsWith(path + ": cannot be read"));
+    }
   }
+}
+
+TEST(ConfigTest, ReadsAFile) {
+  const std::string path = testing::TempDir() + "config_test.toml";
+  std::ofstream(path) << "\n a = 1\n";
+  const Config config = Config::FromFile(path);
+  EXPECT_EQ(config.entries().at("a").origin, path + ":2:2");
+  std::ofstream(path) << "";
+  EXPECT_TRUE(Config::FromFile(path).entries().empty());
+  std::filesystem::remove(path);
 }
 
 TEST(ConfigTest, LaterSourcesWin) {

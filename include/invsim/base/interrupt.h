@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_BASE_INTERRUPT_H_
+#define INVSIM_BASE_INTERRUPT_H_
+
+// Stopping on request: SIGINT (control-C) or SIGTERM (a scheduler's notice)
+// raises a flag that long work looks at between steps, to write a checkpoint
+// and end in order. The same signal again ends the process at once.
+
+namespace invsim {
+
+// While one lives, the two signals raise the flag. One at a time.
+class InterruptGuard {
+ public:
+  // Lowers the flag.
+  InterruptGuard();
+  // Gives the signals back to whoever had them.
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+// Whether a stop was asked for since the last guard was made.
+bool InterruptRequested();
+
+}  // namespace invsim
+
+#endif  // INVSIM_BASE_INTERRUPT_H_

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/base/threads.h"
+
+#include <dlfcn.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "invsim/base/error.h"
+
+namespace invsim {
+namespace {
+
+// OpenBLAS is linked by the layers that factorise, or stands behind the
+// system's BLAS, or is not there at all; only the running program knows.
+void HoldBlasToOneThread() {
+  using SetNumThreads = void (*)(int);
+  const auto set = reinterpret_cast<SetNumThreads>(
+      dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (set) set(1);
+}
+
+}  // namespace
+
+void SetThreads(int threads) {
+  if (threads < 0)
+    throw UsageError("threads = " + std::to_string(threads) +
+                     ": expected an integer >= 0");
+  const int wanted = threads == 0 ? tbb::info::default_concurrency() : threads;
+  // TBB honours the smallest limit alive: end the old one first.
+  static std::unique_ptr<tbb::global_control> control;
+  control.reset();
+  control = std::make_unique<tbb::global_control>(
+      tbb::global_control::max_allowed_parallelism, wanted);
+  HoldBlasToOneThread();
+}
+
+int NumThreads() {
+  return static_cast<int>(tbb::global_control::active_value(
+      tbb::global_control::max_allowed_parallelism));
+}
+
+void ParallelForPieces(int n,
+                       int grain,
+                       const std::function<void(int, int)>& body) {
+  if (n <= 0) return;
+  const int pieces = (n - 1) / grain + 1;
+  const auto run = [&](int piece) {
+    const int begin = piece * grain;
+    body(begin, begin + std::min(grain, n - begin));
+  };
+  if (pieces == 1) {
+    run(0);
+    return;
+  }
+  tbb::parallel_for(0, pieces, run);
+}
+
+}  // namespace invsim

@@ -10,8 +10,8 @@
 
 #include "invsim/base/error.h"
 #include "invsim/io/file.h"
-#include "text_format.h"
-#include "text_scanner.h"
+#include "invsim/io/text_format.h"
+#include "invsim/io/text_scanner.h"
 
 namespace invsim {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text_scanner.h"
+#include "invsim/io/text_scanner.h"
 
 #include <charconv>
 #include <cmath>

@@ -17,17 +17,20 @@ std::string Quoted(std::string_view word);
 
 class TextScanner {
  public:
-  // `bytes` must outlive the scanner. `comment` starts a comment that runs to
-  // the end of the line; `continuation` (0: none) before a line end joins the
-  // next line on.
+  // `bytes` must outlive the scanner. `comment` (0: none) starts a comment that
+  // runs to the end of the line; `continuation` (0: none) before a line end
+  // joins the next line on. `first_line` is the number of the first line.
   TextScanner(std::string_view bytes,
               const std::string& name,
               char comment,
-              char continuation = 0)
+              char continuation = 0,
+              int first_line = 1)
       : bytes_(bytes),
         name_(name),
         comment_(comment),
-        continuation_(continuation) {}
+        continuation_(continuation),
+        line_(first_line),
+        word_line_(first_line) {}
 
   // Moves to the next line that has a word; false at the end. Ends of lines
   // are \n, \r\n or \r.
@@ -59,8 +62,8 @@ class TextScanner {
   char comment_;
   char continuation_;
   std::size_t at_ = 0;
-  int line_ = 1;       // of the character at at_
-  int word_line_ = 1;  // of the last word
+  int line_;       // of the character at at_
+  int word_line_;  // of the last word
   bool started_ = false;
 };
 

@@ -45,6 +45,10 @@ class Effect {
   // false they are equal. Reported, and tested for every registered effect.
   virtual bool stiffness_is_approximate() const = 0;
 
+  // Whether f depends on y.v, or D is not zero: damping, air drag. Effects
+  // that say no are not asked for D.
+  virtual bool depends_on_velocity() const { return false; }
+
   // Adds the vertex tuples this effect couples.
   virtual void AddStencils(BlockPatternBuilder* builder) const = 0;
   // Called once with the scene's final pattern, before any assembly.

@@ -12,6 +12,7 @@
 // theta holds 24 axis-angle joint rotations relative to the parent, the first
 // the root's, which turns about the pelvis joint (the SMPL convention).
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,23 +37,35 @@ struct BodyParameters {
   Vector3d translation = Vector3d::Zero();
 };
 
-// The arrays of an SMPL-layout npz, as read.
+// Number of entries of R(theta) - I that drive the pose blend shapes: the
+// rotation matrices of joints 1 to 23, row by row (SMPL eq. 9).
+inline constexpr int kNumPoseFeatures = 9 * (kNumJoints - 1);
+
+// One row per vertex coordinate: row 3i + c is coordinate c of vertex i. Rows
+// lie together in memory, because derivatives are asked for vertex by vertex.
+using VertexRows =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The arrays of an SMPL-layout npz.
 struct BodyModelData {
-  Points v_template;        // 3 x V
-  MatrixXd shapedirs;       // 3V x 10; row 3i+c: coordinate c of vertex i
-  MatrixXd posedirs;        // 3V x 207, or empty: none
-  MatrixXd joint_regressor; // 24 x V, rows sum to one
-  MatrixXd weights;         // V x 24, rows sum to one
-  std::vector<int> parents; // 24; -1 for the root
-  Faces faces;              // 3 x F
+  Points v_template;         // 3 x V, metres
+  VertexRows shapedirs;      // 3V x 10, metres per unit of beta
+  VertexRows posedirs;       // 3V x 207, or empty: none
+  MatrixXd joint_regressor;  // 24 x V, rows sum to one
+  MatrixXd weights;          // V x 24, rows sum to one, none negative
+  std::vector<int> parents;  // 24; -1 for the root, else smaller than the joint
+  Faces faces;               // 3 x F
 };
 
-// A body posed, with what its derivatives need. Cheap to copy by pointer.
-class PosedBody;
+class PosedBody;      // a body posed, with its derivatives: below
+struct PreparedBody;  // the arrays made ready for posing: private
 
 class BodyModel {
  public:
-  // Throws InputError (naming `name`) if the arrays do not fit together.
+  // Throws InputError (naming `name`) if the arrays do not fit together, hold
+  // non-finite numbers, name vertices that are not there, or if rows that must
+  // sum to one miss it by more than 0.01. Smaller misses, as of 32-bit files,
+  // are scaled away; posedirs of zeros only are dropped.
   explicit BodyModel(BodyModelData data, const std::string& name = "body");
 
   int num_vertices() const;
@@ -67,11 +80,18 @@ class BodyModel {
   std::shared_ptr<const PosedBody> Pose(const BodyParameters& p) const;
 
  private:
-  struct Impl;
-  std::shared_ptr<const Impl> impl_;
-  friend class PosedBody;
+  std::shared_ptr<const PreparedBody> body_;
 };
 
+// The derivatives are written about the world, not about each joint. A change
+// of theta_k turns all that hangs on joint k about its place p_k with the
+// angular velocity w = R_parent(k) LeftJacobian(theta_k) dtheta_k, so that
+//
+//   dM_i = w x sum_{j below k} w_ij (y_ij - p_k),  y_ij = vertex i as joint j
+//                                                  alone would carry it.
+//
+// Sums over vertices run in a fixed order: results do not depend on the number
+// of threads.
 class PosedBody {
  public:
   virtual ~PosedBody() = default;
@@ -82,17 +102,29 @@ class PosedBody {
   // The rows of dM/d(beta, theta, t) of the chosen vertices:
   // (3 n) x 85, row 3k + c is coordinate c of vertices[k].
   virtual MatrixXd Jacobian(std::span<const int> vertices) const = 0;
-  // Joint Jacobian, 72 x 85.
+  // The same of the joints, 72 x 85.
   virtual MatrixXd JointJacobian() const = 0;
   // J u (3 x V) for u in R^85, and J^T w (85) for w (3 x V), all vertices.
   virtual Points Product(const VectorXd& u) const = 0;
   virtual VectorXd TransposedProduct(const Points& w) const = 0;
 };
 
-// Reads an SMPL-layout npz (v_template, shapedirs, posedirs, J_regressor,
-// weights, kintree_table, f). A missing posedirs is zeros; pickled arrays are
-// refused with the reason and the remedy. Throws InputError.
+// Reads an SMPL-layout npz:
+//
+//   v_template (V,3), shapedirs (V,3,10 or more; the first ten are used),
+//   posedirs (V,3,207; a missing one is zeros), J_regressor (24,V),
+//   weights (V,24), kintree_table (2,24; the root's parent is -1 or 2^32 - 1),
+//   f (F,3).
+//
+// Pickles are refused with the reason and the remedy. Throws InputError.
 BodyModel ReadBodyModel(const std::string& path);
+
+// Writes the same layout: 32-bit floats (as SMPL) and unsigned faces, with
+// `joint_names` for the reader. posedirs is left out if there are none.
+void WriteBodyModel(const std::string& path, const BodyModel& body);
+
+// pelvis, left_hip, right_hip, spine1, ...: SMPL's order.
+extern const std::array<const char*, kNumJoints> kJointNames;
 
 }  // namespace invsim
 

@@ -42,27 +42,28 @@ BlockMatrix::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
 
 void BlockMatrix::SetZero() { std::fill(values_.begin(), values_.end(), 0.0); }
 
-void BlockMatrix::Multiply(const MatrixXd& x, MatrixXd* y) const {
+void BlockMatrix::Multiply(const Columns& x, Columns* y) const {
   y->setZero(x.rows(), x.cols());
-  for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    for (int i = 0; i < size(); ++i) {
-      Vector3d sum = Vector3d::Zero();
-      for (int k = pattern_->row_start[i]; k < pattern_->row_start[i + 1]; ++k)
-        sum.noalias() +=
-            block(k) * x.col(c).segment<3>(3 * pattern_->column[k]);
-      y->col(c).segment<3>(3 * i) = sum;
+  for (int i = 0; i < size(); ++i) {
+    for (int k = pattern_->row_start[i]; k < pattern_->row_start[i + 1]; ++k) {
+      const auto b = block(k);
+      const int j = 3 * pattern_->column[k];
+      for (int r = 0; r < 3; ++r)
+        y->row(3 * i + r) += b(r, 0) * x.row(j) + b(r, 1) * x.row(j + 1) +
+                             b(r, 2) * x.row(j + 2);
     }
   }
 }
 
-void BlockMatrix::MultiplyTransposed(const MatrixXd& x, MatrixXd* y) const {
+void BlockMatrix::MultiplyTransposed(const Columns& x, Columns* y) const {
   y->setZero(x.rows(), x.cols());
-  for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    for (int i = 0; i < size(); ++i) {
-      const Vector3d xi = x.col(c).segment<3>(3 * i);
-      for (int k = pattern_->row_start[i]; k < pattern_->row_start[i + 1]; ++k)
-        y->col(c).segment<3>(3 * pattern_->column[k]).noalias() +=
-            block(k).transpose() * xi;
+  for (int i = 0; i < size(); ++i) {
+    for (int k = pattern_->row_start[i]; k < pattern_->row_start[i + 1]; ++k) {
+      const auto b = block(k);
+      const int j = 3 * pattern_->column[k];
+      for (int r = 0; r < 3; ++r)
+        y->row(j + r) += b(0, r) * x.row(3 * i) + b(1, r) * x.row(3 * i + 1) +
+                         b(2, r) * x.row(3 * i + 2);
     }
   }
 }

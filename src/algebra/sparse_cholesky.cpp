@@ -63,8 +63,11 @@ bool SparseCholesky::Factor(const BlockMatrix& a) {
 
 void SparseCholesky::Solve(VectorXd* x) const { impl_->Solve(x->data(), 1); }
 
-void SparseCholesky::Solve(MatrixXd* x) const {
-  if (x->cols() > 0) impl_->Solve(x->data(), static_cast<int>(x->cols()));
+void SparseCholesky::Solve(Columns* x) const {
+  if (x->cols() == 0) return;
+  MatrixXd columns = *x;
+  impl_->Solve(columns.data(), static_cast<int>(columns.cols()));
+  *x = columns;
 }
 
 double SparseCholesky::factor_nonzeros() const {

@@ -11,8 +11,6 @@
 namespace invsim {
 namespace {
 
-using RowMajor =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Panel = Eigen::Map<MatrixXd>;
 
 }  // namespace
@@ -40,10 +38,10 @@ struct SparseLu::Impl {
   void Assemble(const BlockMatrix& a);
   void Update(const Supernode& target, const Supernode& source, int i1);
   bool FactorDiagonal(int index);
-  void Permute(const MatrixXd& x, RowMajor* y) const;
-  void PermuteBack(const RowMajor& y, MatrixXd* x) const;
-  RowMajor Gather(const RowMajor& y, const Supernode& s) const;
-  void SubtractScattered(const RowMajor& z, const Supernode& s, RowMajor* y);
+  void Permute(const Columns& x, Columns* y) const;
+  void PermuteBack(const Columns& y, Columns* x) const;
+  Columns Gather(const Columns& y, const Supernode& s) const;
+  void SubtractScattered(const Columns& z, const Supernode& s, Columns* y);
 
   CholmodAnalysis analysis;
   std::vector<Supernode> supernodes;
@@ -209,36 +207,36 @@ bool SparseLu::Factor(const BlockMatrix& a) {
   return true;
 }
 
-void SparseLu::Impl::Permute(const MatrixXd& x, RowMajor* y) const {
+void SparseLu::Impl::Permute(const Columns& x, Columns* y) const {
   y->resize(x.rows(), x.cols());
   for (Eigen::Index j = 0; j < x.rows(); ++j) y->row(j) = x.row(permutation[j]);
 }
 
-void SparseLu::Impl::PermuteBack(const RowMajor& y, MatrixXd* x) const {
+void SparseLu::Impl::PermuteBack(const Columns& y, Columns* x) const {
   for (Eigen::Index j = 0; j < y.rows(); ++j) x->row(permutation[j]) = y.row(j);
 }
 
-RowMajor SparseLu::Impl::Gather(const RowMajor& y, const Supernode& s) const {
-  RowMajor z(s.height - s.width, y.cols());
+Columns SparseLu::Impl::Gather(const Columns& y, const Supernode& s) const {
+  Columns z(s.height - s.width, y.cols());
   for (int r = s.width; r < s.height; ++r)
     z.row(r - s.width) = y.row(s.rows[r]);
   return z;
 }
 
-void SparseLu::Impl::SubtractScattered(const RowMajor& z,
+void SparseLu::Impl::SubtractScattered(const Columns& z,
                                        const Supernode& s,
-                                       RowMajor* y) {
+                                       Columns* y) {
   for (int r = s.width; r < s.height; ++r)
     y->row(s.rows[r]) -= z.row(r - s.width);
 }
 
-void SparseLu::Solve(MatrixXd* x) const {
+void SparseLu::Solve(Columns* x) const {
   Impl& s = *impl_;
-  RowMajor y, z;
+  Columns y, z;
   s.Permute(*x, &y);
   for (const Impl::Supernode& node : s.supernodes) {
     auto own = y.middleRows(node.first, node.width);
-    const RowMajor before = own;
+    const Columns before = own;
     for (int c = 0; c < node.width; ++c)
       own.row(s.transposition[node.first + c]) = before.row(c);
     const Panel l = s.lower(node);
@@ -260,9 +258,9 @@ void SparseLu::Solve(MatrixXd* x) const {
   s.PermuteBack(y, x);
 }
 
-void SparseLu::SolveTransposed(MatrixXd* x) const {
+void SparseLu::SolveTransposed(Columns* x) const {
   Impl& s = *impl_;
-  RowMajor y, z;
+  Columns y, z;
   s.Permute(*x, &y);
   for (const Impl::Supernode& node : s.supernodes) {
     auto own = y.middleRows(node.first, node.width);
@@ -286,7 +284,7 @@ void SparseLu::SolveTransposed(MatrixXd* x) const {
         .transpose()
         .triangularView<Eigen::UnitUpper>()
         .solveInPlace(own);
-    const RowMajor before = own;
+    const Columns before = own;
     for (int c = 0; c < it->width; ++c)
       own.row(c) = before.row(s.transposition[it->first + c]);
   }

@@ -241,8 +241,12 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
       contact.friction = options.friction;
       if (found[i].size() > 1)
         contact.compliance = options.shared_compliance * dt / mass[i];
-      sources->push_back(
-          {static_cast<int>(contacts->size()), i, m.at.face, feature, m.side});
+      sources->push_back({static_cast<int>(contacts->size()),
+                          i,
+                          m.at.face,
+                          feature,
+                          m.side,
+                          m.at.weights});
       contacts->push_back(contact);
     }
   }

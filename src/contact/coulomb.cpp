@@ -24,7 +24,7 @@ ContactLinearization LinearizeAlartCurnier(const Vector3d& n,
   const Vector3d tangent = trial - normal * n;
   const double length = tangent.norm();
   ContactLinearization c;
-  c.slip.setZero();
+  c.n.setZero();
   if (normal <= 0) {
     c.mode = ContactMode::kOpen;
     c.p.setIdentity();
@@ -47,7 +47,10 @@ ContactLinearization LinearizeAlartCurnier(const Vector3d& n,
     // Across the slip the trial vanishes, so r_s is the whole residual.
     c.residual =
         rho * n.dot(u) * n + (t.dot(r) - mu * normal) * t + s.dot(r) * s;
-    c.slip = t;
+    // At the solution u_N = 0 and r = r_N (n + mu t), t = -u/|u|: the rows are
+    // dn . u,  -(1 + mu^2) r_N dn . t  and  -(1 - k) r_N dn . s.
+    c.n = rho * Outer(n, u) - (1 + mu * mu) * normal * Outer(t, t) -
+          (1 - k) * normal * Outer(s, s);
   }
   return c;
 }

@@ -146,7 +146,7 @@ double FrictionSolver::Impl::Evaluate() {
                     Matrix3d::Zero(),
                     rho[k] * Matrix3d::Identity(),
                     rho[k] * u,
-                    Vector3d::Zero()};
+                    Matrix3d::Zero()};
         error = rho[k] * u.norm();
       } else {
         exact[k] = LinearizeAlartCurnier(c.normal, c.friction, rho[k], r, u);

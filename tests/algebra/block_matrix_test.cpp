@@ -21,8 +21,8 @@ TEST(BlockPattern, IsSymmetricWithDiagonal) {
 TEST(BlockMatrix, ProductsEqualDense) {
   const BlockMatrix a = RandomMatrix(6, 1.0, 3);
   const MatrixXd dense = Dense(a);
-  const MatrixXd x = MatrixXd::Random(dense.rows(), 4);
-  MatrixXd y;
+  const Columns x = MatrixXd::Random(dense.rows(), 4);
+  Columns y;
   a.Multiply(x, &y);
   EXPECT_LT((y - dense * x).norm(), 1e-12 * y.norm());
   a.MultiplyTransposed(x, &y);

@@ -16,8 +16,8 @@ TEST(SparseCholesky, SolvesAndRefactors) {
     for (unsigned seed : {1u, 2u}) {
       const BlockMatrix a = RandomMatrix(n, 0, seed);
       ASSERT_TRUE(cholesky.Factor(a));
-      const MatrixXd b = MatrixXd::Random(3 * a.size(), 5);
-      MatrixXd x = b, ax;
+      const Columns b = MatrixXd::Random(3 * a.size(), 5);
+      Columns x = b, ax;
       cholesky.Solve(&x);
       a.Multiply(x, &ax);
       EXPECT_LT((ax - b).norm(), 1e-12 * b.norm());

@@ -14,8 +14,8 @@ TEST(SparseLu, SolvesUnsymmetricBothWays) {
     for (unsigned seed : {1u, 2u}) {
       const BlockMatrix a = RandomMatrix(n, 3.0, seed);
       ASSERT_TRUE(lu.Factor(a));
-      const MatrixXd b = MatrixXd::Random(3 * a.size(), 5);
-      MatrixXd x = b, ax;
+      const Columns b = MatrixXd::Random(3 * a.size(), 5);
+      Columns x = b, ax;
       lu.Solve(&x);
       a.Multiply(x, &ax);
       EXPECT_LT((ax - b).norm(), 1e-11 * b.norm());
@@ -33,8 +33,8 @@ TEST(SparseLu, ExchangesRowsWithinABlock) {
   // A diagonal block that no elimination without row exchange survives.
   a.diagonal(4) << 0, 30, 0, 0, 0, 30, 30, 0, 0;
   ASSERT_TRUE(lu.Factor(a));
-  const MatrixXd b = MatrixXd::Random(27, 2);
-  MatrixXd x = b, ax;
+  const Columns b = MatrixXd::Random(27, 2);
+  Columns x = b, ax;
   lu.Solve(&x);
   a.Multiply(x, &ax);
   EXPECT_LT((ax - b).norm(), 1e-11);

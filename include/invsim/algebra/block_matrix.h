@@ -65,8 +65,8 @@ class BlockMatrix {
   }
 
   // y = A x, y = A^T x for one or many columns (3 size x m).
-  void Multiply(const MatrixXd& x, MatrixXd* y) const;
-  void MultiplyTransposed(const MatrixXd& x, MatrixXd* y) const;
+  void Multiply(const Columns& x, Columns* y) const;
+  void MultiplyTransposed(const Columns& x, Columns* y) const;
   VectorXd operator*(const VectorXd& x) const;
   void AddScaled(double scale, const BlockMatrix& other);
 

@@ -26,7 +26,7 @@ class SparseCholesky {
 
   // x <- A^{-1} x, one or many columns.
   void Solve(VectorXd* x) const;
-  void Solve(MatrixXd* x) const;
+  void Solve(Columns* x) const;
 
   // Non-zeros of the factor.
   double factor_nonzeros() const;

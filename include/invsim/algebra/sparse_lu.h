@@ -31,8 +31,8 @@ class SparseLu {
   bool Factor(const BlockMatrix& a);
 
   // x <- A^{-1} x and x <- A^{-T} x, one or many columns.
-  void Solve(MatrixXd* x) const;
-  void SolveTransposed(MatrixXd* x) const;
+  void Solve(Columns* x) const;
+  void SolveTransposed(Columns* x) const;
 
  private:
   struct Impl;

@@ -18,6 +18,11 @@ using Faces = Eigen::Matrix3Xi;
 // 2 x R pattern points in metres.
 using Points2 = Eigen::Matrix2Xd;
 
+// Many right sides at once, one row per scalar unknown, one column per side:
+// the rows of a vertex lie together, which is how sparse kernels read them.
+using Columns =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;

@@ -51,7 +51,8 @@ struct BodyContact {
   int vertex;   // of the cloth
   int face;     // of the body
   TriangleFeature feature;
-  double side;  // +1: the vertex is outside, -1: inside
+  double side;       // +1: the vertex is outside, -1: inside
+  Vector3d weights;  // barycentric, at the start of the sub-step
 };
 
 // n and w of one contact and their derivatives.

@@ -33,7 +33,8 @@ struct ContactLinearization {
   Matrix3d p;
   Matrix3d q;
   Vector3d residual;
-  Vector3d slip;  // t, the direction of friction; zero unless sliding
+  // dF/dn where F = 0: the normal turns with the body.
+  Matrix3d n;
 };
 
 ContactLinearization LinearizeAlartCurnier(const Vector3d& n,

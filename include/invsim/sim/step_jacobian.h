@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_SIM_STEP_JACOBIAN_H_
+#define INVSIM_SIM_STEP_JACOBIAN_H_
+
+// The derivative of one solved frictional problem by the implicit function
+// theorem (the paper's eq. 6). With F = 0 standing for momentum on the free
+// vertices and for the contact law on the others, and r = A v - b there,
+//
+//   J dv = rhs,   row i of J:  A_i                      free vertex
+//                              P_i A_i + Q_i            vertex in contact
+//   rhs row i:    m_i                                   free
+//                 P_i m_i + Q_i dw - N_i dn             in contact
+//
+// where m is the change of the momentum's right side at fixed v, dw and dn
+// those of the contact's velocity and normal, and (P, Q, N) the derivatives of
+// the contact law with respect to (r, u, n). A compliant contact is a force and
+// adds to m and to A. J is what Newton's last iteration solved with; it is
+// symmetric, after elimination, if nothing slides with friction.
+
+#include <memory>
+#include <vector>
+
+#include "invsim/algebra/block_matrix.h"
+#include "invsim/algebra/sparse_cholesky.h"
+#include "invsim/algebra/sparse_lu.h"
+#include "invsim/contact/contact.h"
+#include "invsim/contact/coulomb.h"
+
+namespace invsim {
+
+class StepJacobian {
+ public:
+  explicit StepJacobian(std::shared_ptr<const BlockPattern> pattern);
+
+  // `v` and `forces` solve A v = b + r for `contacts`. False if J is singular.
+  bool Factor(const BlockMatrix& a,
+              const std::vector<Contact>& contacts,
+              const VectorXd& v,
+              const std::vector<Vector3d>& forces);
+
+  // On entry `rhs` holds m (3N x p), on return dv. `dn`, `dw`: 3 rows per
+  // contact, p columns.
+  void Forward(const Columns& dn, const Columns& dw, Columns* rhs) const;
+
+  // The transpose: on entry `z` holds the adjoint of dv, on return that of m;
+  // the adjoints of dn and dw are added to.
+  void Adjoint(Columns* z, Columns* dn, Columns* dw) const;
+
+  bool symmetric() const { return symmetric_; }
+
+ private:
+  struct Row {
+    Matrix3d p, q, n;
+  };
+  void Linearize(const std::vector<Contact>& contacts,
+                 const VectorXd& v,
+                 const std::vector<Vector3d>& forces,
+                 const BlockMatrix& a);
+  void AssembleCompliant(const BlockMatrix& a);
+  void Solve(Columns* x) const;
+  void SolveTransposed(Columns* x) const;
+
+  std::vector<Contact> contacts_;
+  std::vector<Row> exact_;                      // of exact contacts
+  std::vector<CompliantDerivative> compliant_;  // of the others
+  bool symmetric_ = false;
+  BlockMatrix momentum_;                      // A with the compliant contacts
+  BlockMatrix jacobian_;                      // the matrix factorised
+  std::unique_ptr<SparseCholesky> cholesky_;  // made when first needed
+  std::unique_ptr<SparseLu> lu_;
+};
+
+}  // namespace invsim
+
+#endif  // INVSIM_SIM_STEP_JACOBIAN_H_

@@ -48,8 +48,9 @@ ContactLinearization LinearizeAlartCurnier(const Vector3d& n,
     c.residual =
         rho * n.dot(u) * n + (t.dot(r) - mu * normal) * t + s.dot(r) * s;
     // At the solution u_N = 0 and r = r_N (n + mu t), t = -u/|u|: the rows are
-    // dn . u,  -(1 + mu^2) r_N dn . t  and  -(1 - k) r_N dn . s.
-    c.n = rho * Outer(n, u) - (1 + mu * mu) * normal * Outer(t, t) -
+    // rho dn . u,  mu rho dn . u - (1 + mu^2) r_N dn . t  and
+    // -(1 - k) r_N dn . s.
+    c.n = rho * Outer(n + mu * t, u) - (1 + mu * mu) * normal * Outer(t, t) -
           (1 - k) * normal * Outer(s, s);
   }
   return c;

@@ -12,8 +12,8 @@
 namespace invsim {
 
 struct FrictionSolver::Impl {
-  explicit Impl(std::shared_ptr<const BlockPattern> pattern)
-      : pattern(pattern), cholesky(pattern), augmented(pattern) {}
+  explicit Impl(std::shared_ptr<const BlockPattern> p)
+      : pattern(p), cholesky(p), augmented(p) {}
 
   void Prepare();
   bool Factor();

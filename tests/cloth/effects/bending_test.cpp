@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/cloth/effects/bending.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numbers>
+
+#include "../test_cloth.h"
+#include "invsim/cloth/effects/gravity.h"
+#include "invsim/cloth/mass.h"
+#include "invsim/geometry/mesh.h"
+
+namespace invsim {
+namespace {
+
+constexpr double kRigidity = 1e-5;  // N m
+
+// The pattern rolled onto a cylinder whose axis makes `turn` with axis 2.
+Points Rolled(const Points2& rest, double curvature, double turn) {
+  const Vector2d across(std::cos(turn), std::sin(turn));
+  const Vector2d along(-std::sin(turn), std::cos(turn));
+  Points x(3, rest.cols());
+  for (int i = 0; i < rest.cols(); ++i) {
+    const double angle = curvature * across.dot(rest.col(i));
+    x.col(i) = Vector3d(std::sin(angle) / curvature,
+                        along.dot(rest.col(i)),
+                        (std::cos(angle) - 1.0) / curvature);
+  }
+  return x;
+}
+
+double EnergyOf(const Bending& bending, const Points& x) {
+  return bending.Energy({x, Points::Zero(3, x.cols())});
+}
+
+// Only the edges along the axis bend, each by exactly its share; those of the
+// last column are border, so that the whole converges with the mesh.
+TEST(Bending, CylinderHasTheEnergyOfThePlate) {
+  const double radius = 0.1, width = 0.12, height = 0.04;
+  const double plate = 0.5 * kRigidity / (radius * radius) * width * height;
+  for (const int n : {6, 12, 24, 48}) {
+    const Garment garment = Sheet(n, n / 3, width / n);
+    const Bending bending(garment, IsotropicBending{kRigidity});
+    const double energy =
+        EnergyOf(bending, Rolled(garment.rest, 1.0 / radius, 0.0));
+    EXPECT_NEAR(energy, plate * (n - 1) / n, 1e-12 * plate);
+  }
+}
+
+// Of equilateral triangles the sheet is equally stiff in every direction. The
+// three edges of a face in the middle stand for the mesh.
+TEST(Bending, EquilateralMeshIsIsotropic) {
+  const double edge = 0.01, curvature = 1.0;
+  Garment garment = TriangleSheet(4, 4, edge);
+  const std::vector<Edge> edges = Edges(garment.faces);
+  const Vector2d middle = garment.rest.rowwise().mean();
+  garment.rest.colwise() -= middle;
+  // A face and its three neighbours.
+  Garment patch = garment;
+  const int centre = 2 * (2 * 4 + 1);
+  Eigen::Vector4i faces(centre, -1, -1, -1);
+  int count = 1;
+  for (const Edge& e : edges)
+    for (int side = 0; side < 2; ++side)
+      if (e.faces[side] == centre) faces[count++] = e.faces[1 - side];
+  ASSERT_EQ(count, 4);
+  patch.faces = garment.faces(Eigen::all, faces);
+  patch.rest_faces = patch.faces;
+  const Bending bending(patch, IsotropicBending{kRigidity});
+  const double area = 2.0 * edge * edge * std::sqrt(3.0) / 4.0;
+  const double plate = 0.5 * kRigidity * curvature * curvature * area;
+  for (double turn = 0.0; turn < 3.2; turn += 0.2)
+    EXPECT_NEAR(EnergyOf(bending, Rolled(garment.rest, curvature, turn)),
+                plate,
+                1e-4 * plate);
+}
+
+TEST(Bending, RestAnglesComeFromThePlacedShapeIfAsked) {
+  Garment garment = Sheet(6, 2, 0.02);
+  garment.placed = Rolled(garment.rest, 10.0, 0.3);
+  const Bending flat(garment, IsotropicBending{kRigidity});
+  EXPECT_GT(EnergyOf(flat, garment.placed), 1e-7);
+  garment.rest_angles_from_placed = true;
+  const Bending shaped(garment, IsotropicBending{kRigidity});
+  EXPECT_EQ(EnergyOf(shaped, garment.placed), 0.0);
+  const Points zero = Points::Zero(3, garment.num_vertices());
+  EXPECT_LE(ForceOf(shaped, {garment.placed, zero}).norm(), 1e-15);
+}
+
+// Heights at rest under `load` (N/m^2) of a strip along x whose vertices up to
+// 1.5 `cell` are held. The heights of the others are `span` times the unknowns:
+// a way to tie them together.
+VectorXd SagOf(const Garment& garment,
+               double cell,
+               double load,
+               const MatrixXd& span) {
+  const Material material{"strip",
+                          load / 9.8,
+                          IsotropicStretch{100.0},
+                          IsotropicBending{kRigidity}};
+  Bending bending(garment, material.bending);
+  const Gravity gravity(VertexMasses(garment, material),
+                        {.acceleration = Vector3d(0, 0, -9.8)});
+  const auto pattern = BindAlone(&bending, garment.num_vertices());
+  const Eigen::VectorXi free = Where(3 * garment.num_vertices(), [&](int k) {
+    return k % 3 == 2 && garment.rest(0, k / 3) > 1.5 * cell;
+  });
+  const Points zero = Points::Zero(3, garment.num_vertices());
+  ClothState state{garment.placed, zero};
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    BlockMatrix h(pattern), unused(pattern);
+    h.SetZero();
+    bending.AddTangent(state, zero, zero, 1.0, &h, &unused);
+    const Points force = ForceOf(bending, state) + ForceOf(gravity, state);
+    const MatrixXd k = span.transpose() * Dense(h)(free, free) * span;
+    const VectorXd step = k.lu().solve(span.transpose() * Stacked(force)(free));
+    Stacked(state.x)(free) += span * step;
+  }
+  const Points force = ForceOf(bending, state) + ForceOf(gravity, state);
+  EXPECT_LE((span.transpose() * Stacked(force)(free)).norm(), 1e-12);
+  return state.x.row(2);
+}
+
+// A wide strip held at one end, bent into a cylinder (both edges of a column
+// tied), sags by q L^4 / (8 B) under its own weight, the deflection being
+// small. Two columns are held: the clamp is half a cell before the second,
+// where the first hinge begins.
+TEST(Bending, CantileverSagsLikeAPlate) {
+  const int n = 30;
+  const double cell = 0.01, length = (n - 0.5) * cell, sag = 0.01 * length;
+  const double load = sag * 8.0 * kRigidity / std::pow(length, 4);
+  MatrixXd tied(2 * (n - 1), n - 1);
+  tied << MatrixXd::Identity(n - 1, n - 1), MatrixXd::Identity(n - 1, n - 1);
+  const VectorXd heights = SagOf(Sheet(n, 1, cell), cell, load, tied);
+  EXPECT_NEAR(-heights[n], sag, 0.005 * sag);
+}
+
+// A narrow strip is free to curl across as well. A sheet of equilateral hinges
+// has a Poisson's ratio of -1/3 in bending, so it sags as a beam of stiffness
+// (1 - 1/9) B.
+TEST(Bending, CantileverSagsLikeABeamIfItMayCurl) {
+  const int nx = 60, ny = 4;
+  const double cell = 0.01;
+  const Garment garment = TriangleSheet(nx, ny, cell);
+  const double length = nx * cell - 1.25 * cell, sag = 0.01 * length;
+  const double load = sag * 8.0 * kRigidity * 8.0 / 9.0 / std::pow(length, 4);
+  int free = 0;
+  for (int i = 0; i < garment.num_vertices(); ++i)
+    free += garment.rest(0, i) > 1.5 * cell;
+  const VectorXd heights =
+      SagOf(garment, cell, load, MatrixXd::Identity(free, free));
+  EXPECT_NEAR(-heights[2 * (nx + 1) + nx], sag, 0.03 * sag);
+}
+
+TEST(Bending, SurvivesSliversAndFolds) {
+  const Garment garment = Sheet(2, 2, 0.02);
+  Bending bending(garment, ExampleBendingTable());
+  const auto pattern = BindAlone(&bending, garment.num_vertices());
+  Points flat = garment.placed;
+  flat.row(0).setZero();  // every face is a line
+  for (const Points& x : {flat, Points(Points::Zero(3, 9))}) {
+    EXPECT_TRUE(ForceOf(bending, {x, x}).allFinite());
+    EXPECT_TRUE(StiffnessOf(bending, pattern, {x, x}, 1.0, 0.0).allFinite());
+    BlockMatrix h(pattern);
+    h.SetZero();
+    bending.AddTangent({x, x}, flat, flat, 1.0, &h, &h);
+    EXPECT_TRUE(Dense(h).allFinite());
+  }
+}
+
+}  // namespace
+}  // namespace invsim

@@ -87,10 +87,7 @@ class AsciiBody : public PlaceOfBody {
     }
     return value;
   }
-  void EndRow() override {
-    const std::string_view word = scanner_.Word();
-    if (!word.empty()) scanner_.Fail(Quoted(word), "expected the row's end");
-  }
+  void EndRow() override { scanner_.EndRow(); }
   void Finish() override {
     if (!scanner_.NextLine()) return;
     scanner_.Fail(Quoted(scanner_.Word()), "expected the end of the file");

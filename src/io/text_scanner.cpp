@@ -17,6 +17,10 @@ bool IsBlank(char c) {
 
 bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
 
+std::size_t LineEndSize(std::string_view bytes, std::size_t at) {
+  return bytes.substr(at, 2) == "\r\n" ? 2 : 1;
+}
+
 // from_chars knows no leading '+', which some exporters write.
 std::string_view WithoutPlus(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') {
@@ -41,9 +45,7 @@ bool TextScanner::AtLineEnd() const {
 }
 
 void TextScanner::EndLine() {
-  const bool two =
-      bytes_[at_] == '\r' && at_ + 1 < bytes_.size() && bytes_[at_ + 1] == '\n';
-  at_ += two ? 2 : 1;
+  at_ += LineEndSize(bytes_, at_);
   ++line_;
 }
 
@@ -87,6 +89,17 @@ std::string_view TextScanner::Word() {
     ++at_;
   }
   return bytes_.substr(begin, at_ - begin);
+}
+
+void TextScanner::EndRow() {
+  const std::string_view word = Word();
+  if (!word.empty()) Fail(Quoted(word), "expected the end of the line");
+}
+
+std::string_view TextScanner::Rest() const {
+  const std::size_t end = bytes_.find_first_of("\r\n", at_);
+  if (end == std::string_view::npos) return {};
+  return bytes_.substr(end + LineEndSize(bytes_, end));
 }
 
 double TextScanner::ToNumber(std::string_view word, const char* what) const {

@@ -106,7 +106,7 @@ TEST(PlyBodyTest, KeepsAsciiToTheTypeAndTheLine) {
               ThrowsInputError("t.ply:1: '2.5': expected a whole number"));
   EXPECT_EQ(body->Real(PlyType::kInt8, "red"), 7);
   EXPECT_THAT([&] { body->EndRow(); },
-              ThrowsInputError("t.ply:1: '8': expected the row's end"));
+              ThrowsInputError("t.ply:1: '8': expected the end of the line"));
   EXPECT_THAT([&] { body->Finish(); },
               ThrowsInputError("t.ply:2: '9': expected the end of the file"));
   EXPECT_THAT([&] { body->BeginRow(); },

@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadPly{Ascii("2", "end_header\n0 0 0.00000000\n"),
                "element 'vertex' row 1 (from 0) of 2: the file ends"},
         BadPly{Ascii("1", "end_header\n0 0 0 0\n"),
-               "t.ply:8: '0': expected the row's end"},
+               "t.ply:8: '0': expected the end of the line"},
         BadPly{Ascii("1", "end_header\n0 0 0\n0 0 0\n"),
                "t.ply:9: '0': expected the end of the file"},
         BadPly{Ascii("1", "end_header\n0 0 zero\n"),

@@ -40,6 +40,11 @@ class TextScanner {
   // The next word as a finite number; `what` names it in the complaint.
   double Number(const char* what);
 
+  // Refuses any further word on this line.
+  void EndRow();
+  // Everything after the end of this line: some headers end in binary data.
+  std::string_view Rest() const;
+
   // `word` as a number, finite or not; anything else is refused.
   double ToNumber(std::string_view word, const char* what) const;
   // `word` as an integer.

@@ -31,7 +31,7 @@ find_path(PCL_INCLUDE_DIR pcl/point_types.h
           PATH_SUFFIXES pcl-1.13 pcl-1.12 REQUIRED)
 add_library(PointClouds INTERFACE)
 target_include_directories(PointClouds SYSTEM INTERFACE ${PCL_INCLUDE_DIR})
-foreach(lib common io filters search kdtree octree)
+foreach(lib common filters)
   find_library(PCL_${lib} pcl_${lib} REQUIRED)
   target_link_libraries(PointClouds INTERFACE ${PCL_${lib}})
 endforeach()

@@ -25,8 +25,8 @@ endforeach()
 find_library(OPENBLAS_LIBRARY openblas REQUIRED)
 target_link_libraries(SuiteSparse INTERFACE ${OPENBLAS_LIBRARY})
 
-# Only the parts of PCL that read and filter clouds (PCL's own CMake package
-# would ask for VTK and the rest).
+# Only the part of PCL that filters clouds (PCL's own CMake package would ask
+# for VTK and the rest; pcl_io alone loads 67 libraries into every process).
 find_path(PCL_INCLUDE_DIR pcl/point_types.h
           PATH_SUFFIXES pcl-1.13 pcl-1.12 REQUIRED)
 add_library(PointClouds INTERFACE)
@@ -41,15 +41,23 @@ if(INVSIM_BUILD_TESTS)
   include(GoogleTest)
 endif()
 
-# Flags common to every target and to those who link us: Eigen's alignment is
-# fixed at 16 bytes so that AVX code shares its ABI with Debian's libraries.
+# Flags common to every target and to those who link us. Eigen objects are
+# aligned to 16 bytes, as in Debian's libraries; memory they allocate is not
+# interchangeable (with AVX Eigen brings its own allocator), so none crosses
+# into a library that was built with Eigen, and whoever links us is compiled for
+# the same instructions. Hidden symbols keep our Eigen functions from taking the
+# place of a library's own.
 add_library(invsim_flags INTERFACE)
 set_target_properties(invsim_flags PROPERTIES EXPORT_NAME flags)
 target_compile_definitions(invsim_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
 target_compile_features(invsim_flags INTERFACE cxx_std_20)
 if(INVSIM_NATIVE)
-  add_compile_options(-march=native)
+  target_compile_options(invsim_flags INTERFACE -march=native)
 endif()
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+# A program loads only the libraries it uses.
+add_link_options(-Wl,--as-needed)
 set(INVSIM_WARNINGS -Wall -Wextra -Wshadow -Wno-unused-parameter)
 # GCC 12 gives false alarms about Eigen's AVX-512 kernels on small matrices
 # (its own intrinsics start from an undefined register) and about

@@ -2,40 +2,19 @@
 # third_party_notes.md.
 set(CMAKE_FIND_PACKAGE_PREFER_CONFIG ON)
 set(THREADS_PREFER_PTHREAD_FLAG ON)
-find_package(Threads REQUIRED)
-find_package(Eigen3 3.4 REQUIRED)
-find_package(glog REQUIRED)
-find_package(TBB REQUIRED)
-find_package(Ceres 2.1 REQUIRED)
-find_package(nlohmann_json REQUIRED)
-find_package(tomlplusplus REQUIRED)
-find_package(CLI11 REQUIRED)
-find_package(ZLIB REQUIRED)
-find_package(embree 3 REQUIRED)
 
-# SuiteSparse ships no CMake package in Debian 12.
-add_library(SuiteSparse INTERFACE)
-find_path(SUITESPARSE_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
-target_include_directories(SuiteSparse SYSTEM INTERFACE
-                           ${SUITESPARSE_INCLUDE_DIR})
-foreach(lib cholmod umfpack klu btf amd colamd suitesparseconfig)
-  find_library(SUITESPARSE_${lib} ${lib} REQUIRED)
-  target_link_libraries(SuiteSparse INTERFACE ${SUITESPARSE_${lib}})
+# What the layers link; who links the layers needs the same.
+set(INVSIM_DEPENDENCIES Threads Eigen3 glog TBB Ceres nlohmann_json
+                        tomlplusplus ZLIB embree SparseSolvers PointClouds)
+foreach(dependency ${INVSIM_DEPENDENCIES})
+  find_package(${dependency} REQUIRED)
 endforeach()
-find_library(OPENBLAS_LIBRARY openblas REQUIRED)
-target_link_libraries(SuiteSparse INTERFACE ${OPENBLAS_LIBRARY})
-
-# Only the part of PCL that filters clouds (PCL's own CMake package would ask
-# for VTK and the rest; pcl_io alone loads 67 libraries into every process).
-find_path(PCL_INCLUDE_DIR pcl/point_types.h
-          PATH_SUFFIXES pcl-1.13 pcl-1.12 REQUIRED)
-add_library(PointClouds INTERFACE)
-target_include_directories(PointClouds SYSTEM INTERFACE ${PCL_INCLUDE_DIR})
-foreach(lib common filters)
-  find_library(PCL_${lib} pcl_${lib} REQUIRED)
-  target_link_libraries(PointClouds INTERFACE ${PCL_${lib}})
-endforeach()
-
+if(NOT PointClouds_INCLUDE_DIR)
+  message(FATAL_ERROR "The headers of PCL are missing; run ./run setup")
+endif()
+if(INVSIM_BUILD_APPS)
+  find_package(CLI11 REQUIRED)
+endif()
 if(INVSIM_BUILD_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

@@ -24,7 +24,8 @@ function(invsim_layer name)
   set_property(GLOBAL APPEND PROPERTY INVSIM_TARGETS ${target})
 endfunction()
 
-# One test program per layer: tests/NAME/*_test.cpp; CTest name NAME/Case.Test.
+# One test program per layer: tests/NAME/*_test.cpp; CTest name NAME/Case.Test,
+# label NAME.
 function(invsim_layer_tests name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS
        ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*_test.cpp)
@@ -38,5 +39,7 @@ function(invsim_layer_tests name)
   target_link_libraries(${target} PRIVATE invsim::${name} ${ARGN}
                         GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${target} TEST_PREFIX "${name}/"
-                       DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
+                       DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS ${name} TIMEOUT 300
+                                  ENVIRONMENT OPENBLAS_NUM_THREADS=1)
 endfunction()

@@ -24,8 +24,7 @@ constexpr double kLong = 4.0 / 3.0;
 constexpr double kShort = 4.0 / 5.0;
 // How far an operation may turn a face: cos 60 degrees.
 constexpr double kSameSide = 0.5;
-// A boundary that turns by more is a corner: cos 45 degrees.
-constexpr double kCorner = 0.7071;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 // 1 for an equilateral triangle, 0 for a degenerate one: area over the sum of
 // the squared sides, scaled.
@@ -77,13 +76,14 @@ class Remesher {
  private:
   void AddLoop(const TriangleMesh& mesh, const std::vector<int>& loop) {
     const size_t n = loop.size();
+    const double limit = std::cos(options_.corner_angle * kDegree);
     for (size_t i = 0; i < n; ++i) {
       const Vector3d a = mesh.vertices.col(loop[(i + n - 1) % n]);
       const Vector3d b = mesh.vertices.col(loop[i]);
       const Vector3d c = mesh.vertices.col(loop[(i + 1) % n]);
       boundary_.push_back({b, c});
       const bool corner =
-          (b - a).dot(c - b) < kCorner * (b - a).norm() * (c - b).norm();
+          (b - a).dot(c - b) < limit * (b - a).norm() * (c - b).norm();
       fixed_[loop[i]] = corner || options_.keep_boundary;
     }
   }

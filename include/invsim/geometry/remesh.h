@@ -26,9 +26,11 @@ using EdgeLengthField = std::function<double(const Vector3d&)>;
 struct RemeshOptions {
   int rounds = 12;
   // true: boundary vertices and edges stay as they are. false: boundaries get
-  // the wanted edge length too; they stay on the input's boundary curves, and
-  // corners of those (turning by more than 45 degrees) stay in place.
+  // the wanted edge length too and stay on the input's boundary curves.
   bool keep_boundary = false;
+  // Boundary vertices where the boundary turns by more stay in place, degrees;
+  // 180: none does.
+  double corner_angle = 45.0;
 };
 
 // Throws InputError as Edges does, or if the edge length is not positive.

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/sim/body_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "invsim/body/rotation.h"
+
+namespace invsim {
+namespace {
+
+// A rotation whose quaternion has less than this of (w, y) has no heading.
+constexpr double kNoHeading = 1e-6;
+
+// b's rotation of joint j relative to a's, times s, applied to a's. s may be
+// outside [0, 1].
+Vector3d Turn(const Vector3d& a, const Vector3d& b, double s) {
+  const Vector3d turned = Log(Slerp(Exp(a), Exp(b), s));
+  return NearestEquivalent(turned, a);
+}
+
+BodyParameters Along(const BodyParameters& a,
+                     const BodyParameters& b,
+                     double s) {
+  BodyParameters p;
+  p.shape = (1 - s) * a.shape + s * b.shape;
+  p.translation = (1 - s) * a.translation + s * b.translation;
+  for (int j = 0; j < kNumJoints; ++j)
+    p.pose.segment<3>(3 * j) =
+        Turn(a.pose.segment<3>(3 * j), b.pose.segment<3>(3 * j), s);
+  return p;
+}
+
+}  // namespace
+
+BodyParameters Between(const BodyParameters& a,
+                       const BodyParameters& b,
+                       double s) {
+  if (s <= 0) return a;
+  if (s >= 1) return b;
+  return Along(a, b, s);
+}
+
+Vector3d Heading(const Vector3d& rotation) {
+  // Of the quaternion (cos x/2, sin x/2 axis) the part (w, y) is the twist.
+  const double angle = rotation.norm();
+  const double w = std::cos(0.5 * angle);
+  const double y = 0.5 * SinOverX(0.25 * angle * angle) * rotation.y();
+  if (std::hypot(w, y) < kNoHeading) return Vector3d::Zero();
+  double heading = 2 * std::atan2(y, w);
+  if (heading > M_PI) heading -= 2 * M_PI;
+  if (heading < -M_PI) heading += 2 * M_PI;
+  return heading * Vector3d::UnitY();
+}
+
+StartingPlace PlaceAtStart(const BodyModel& model,
+                           const BodyParameters& first,
+                           const ShapeVector& shape) {
+  BodyParameters made;
+  made.shape = shape;
+  const Vector3d made_pelvis = model.Joints(made).col(0);
+  const Vector3d first_pelvis = model.Joints(first).col(0);
+
+  StartingPlace start;
+  start.body.shape = shape;
+  start.body.pose.head<3>() = Heading(first.pose.head<3>());
+  start.body.translation = first_pelvis - made_pelvis;
+  start.rotation = Exp(start.body.pose.head<3>());
+  start.translation = first_pelvis - start.rotation * made_pelvis;
+  return start;
+}
+
+BodyParameters BeforeFirst(std::span<const BodyParameters> motion,
+                           double frames_per_second,
+                           double lead_in,
+                           double seconds) {
+  if (motion.size() < 2 || lead_in <= 0 || seconds >= 0) return motion[0];
+  const double t = std::max(seconds, -lead_in);
+  const double s = frames_per_second * (t + t * t / (2 * lead_in));
+  return Along(motion[0], motion[1], s);
+}
+
+}  // namespace invsim

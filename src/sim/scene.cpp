@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/sim/scene.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "invsim/base/error.h"
+#include "invsim/cloth/mass.h"
+#include "invsim/geometry/surface_index.h"
+
+namespace invsim {
+namespace {
+
+constexpr double kMostInside = 0.25;  // share of the garment's vertices
+constexpr double kNear = 0.1;         // m
+
+bool WasSet(const OptionTable& table, const std::string& key) {
+  for (const OptionTable::Option& option : table.options())
+    if (option.key == key) return !option.origin.empty();
+  return false;
+}
+
+}  // namespace
+
+SceneOptions::SceneOptions() {
+  for (const std::string& name : Effects().names())
+    effect_options[name] = Effects().Choose(name);
+}
+
+void Describe(OptionTable* table, SceneOptions* o) {
+  table->Add("scene.effects",
+             &o->effects,
+             {.doc = "what acts on the cloth; nothing else is computed",
+              .choices = Effects().names()});
+  table->Add("scene.material",
+             &o->material,
+             {.doc = "a named material, or the path of an ARCSim material"});
+  for (const std::string& name : Effects().names())
+    table->AddSection("effects." + name, o->effect_options.at(name).get());
+  table->AddSection("contact", &o->contact);
+  table->AddSection("step", &o->step);
+}
+
+void UseMaterialFriction(const OptionTable& table,
+                         const Material& material,
+                         SceneOptions* options) {
+  if (!WasSet(table, "contact.friction"))
+    options->contact.friction = material.friction;
+}
+
+SimulatorSetup MakeSetup(const SceneOptions& options,
+                         const BodyModel& body,
+                         const Garment& garment,
+                         const Material& material) {
+  SimulatorSetup setup;
+  setup.faces = garment.faces;
+  setup.mass = VertexMasses(garment, material);
+  for (size_t k = 0; k < options.effects.size(); ++k) {
+    const std::string& name = options.effects[k];
+    const auto begin = options.effects.begin();
+    if (std::find(begin, begin + k, name) != begin + k)
+      throw UsageError("effect '" + name + "' is listed twice");
+    const auto found = options.effect_options.find(name);
+    if (found == options.effect_options.end())
+      throw UsageError(UnknownName("effect", name, Effects().names()));
+    setup.effects.push_back(found->second->Make(garment, material));
+  }
+  setup.contact = options.contact;
+  setup.step = options.step;
+  setup.body_faces = body.faces();
+  setup.body = body.Vertices({});
+  return setup;
+}
+
+void CheckGarmentFits(const Garment& garment,
+                      const BodyModel& body,
+                      const ShapeVector& shape,
+                      const std::string& name) {
+  BodyParameters t_pose;
+  t_pose.shape = shape;
+  SurfaceIndex surface(body.Vertices(t_pose), body.faces());
+  int inside = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const SurfacePoint& p : surface.NearestAll(garment.placed)) {
+    inside += p.signed_distance < 0;
+    nearest = std::min(nearest, std::abs(p.signed_distance));
+  }
+  const int n = garment.num_vertices();
+  std::ostringstream text;
+  text << name << ": ";
+  if (inside > kMostInside * n) {
+    text << inside << " of its " << n << " vertices are inside the body";
+  } else if (nearest > kNear) {
+    text << "its nearest vertex is " << nearest << " m from the body";
+  } else {
+    return;
+  }
+  text << "; expected a garment placed around the T-posed body, in metres";
+  throw InputError(text.str());
+}
+
+}  // namespace invsim

@@ -5,7 +5,8 @@ set(THREADS_PREFER_PTHREAD_FLAG ON)
 
 # What the layers link; who links the layers needs the same.
 set(INVSIM_DEPENDENCIES Threads Eigen3 glog TBB Ceres nlohmann_json
-                        tomlplusplus ZLIB embree SparseSolvers PointClouds)
+                        tomlplusplus ZLIB TinyGLTF embree SparseSolvers
+                        PointClouds)
 foreach(dependency ${INVSIM_DEPENDENCIES})
   find_package(${dependency} REQUIRED)
 endforeach()

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "invsim/base/error.h"
+#include "invsim/io/text_scanner.h"
 
 namespace invsim {
 namespace {
@@ -102,8 +103,8 @@ void ParseType(std::string_view descr,
                      kPickleRemedy);
   }
   const auto unknown = [&]() {
-    return InputError(name + ": array type '" + std::string(descr) +
-                      "' is not supported: expected bool, i1 to i8, u1 to u8, "
+    return InputError(name + ": array type " + Quoted(descr) +
+                      " is not supported: expected bool, i1 to i8, u1 to u8, "
                       "f2 to f8, S or U");
   };
   if (descr.size() < 3) throw unknown();

@@ -5,6 +5,7 @@
 
 #include "invsim/base/error.h"
 #include "invsim/io/file.h"
+#include "invsim/io/text_scanner.h"
 
 namespace invsim {
 namespace {
@@ -84,8 +85,8 @@ NpyArray Npz::Array(const std::string& array) const {
     for (const std::string& name : Names()) {
       there += (there.empty() ? "" : ", ") + name;
     }
-    throw InputError(name_ + ": has no array " + array +
-                     " (it has: " + (there.empty() ? "none" : there) + ")");
+    throw InputError(name_ + ": has no array " + array + " (it has: " +
+                     (there.empty() ? "none" : Printable(there)) + ")");
   }
   return ParseNpy(zip_.Extract(array + std::string(kSuffix)),
                   name_ + ": " + array);

@@ -52,8 +52,10 @@ void CheckSize(const Header& header,
   // Two numbers below 2^31 and a 12: no overflow.
   const std::uint64_t expected =
       std::uint64_t{3 * sizeof(float)} * header.num_points * header.num_samples;
-  // Samples of no points would be many for no bytes.
-  if (expected == bytes && (bytes > 0 || header.num_samples <= 1)) return;
+  // No bytes would do for any number of samples of no points, or of points in
+  // no samples; neither is written by anyone.
+  const bool is_empty = header.num_samples == 0 && header.num_points == 0;
+  if (expected == bytes && (bytes > 0 || is_empty)) return;
   throw InputError(name + ": " + std::to_string(bytes) +
                    " bytes after the header: expected " +
                    std::to_string(expected) + " for " +
@@ -73,9 +75,7 @@ PointCache ParsePc2(std::string_view bytes, const std::string& name) {
   Eigen::Matrix3Xf sample(3, header.num_points);
   const std::size_t sample_size = sizeof(float) * sample.size();
   for (int s = 0; s < header.num_samples; ++s) {
-    if (sample_size > 0) {
-      std::memcpy(sample.data(), bytes.data() + s * sample_size, sample_size);
-    }
+    std::memcpy(sample.data(), bytes.data() + s * sample_size, sample_size);
     if (!sample.allFinite()) {
       throw InputError(name + ": sample " + std::to_string(s) +
                        " (from 0): expected finite coordinates");

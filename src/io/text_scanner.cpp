@@ -31,13 +31,18 @@ std::string_view WithoutPlus(std::string_view word) {
 
 }  // namespace
 
+std::string Printable(std::string_view text) {
+  std::string printable(text);
+  for (char& c : printable) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return printable;
+}
+
 std::string Quoted(std::string_view word) {
   constexpr std::size_t kLongest = 40;
-  std::string text = "'";
-  for (char c : word.substr(0, kLongest)) {
-    text += (c >= ' ' && c <= '~') ? c : '?';
-  }
-  return text + (word.size() > kLongest ? "...'" : "'");
+  return "'" + Printable(word.substr(0, kLongest)) +
+         (word.size() > kLongest ? "...'" : "'");
 }
 
 bool TextScanner::AtLineEnd() const {
@@ -144,8 +149,8 @@ std::int64_t TextScanner::ToInteger(std::string_view word,
 
 void TextScanner::Fail(const std::string& value,
                        const std::string& expectation) const {
-  throw InputError(name_ + ":" + std::to_string(word_line_) + ": " + value +
-                   ": " + expectation);
+  throw InputError(name_ + ":" + std::to_string(word_line_) + ": " +
+                   Printable(value + ": " + expectation));
 }
 
 }  // namespace invsim

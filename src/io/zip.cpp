@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "invsim/base/error.h"
+#include "invsim/io/text_scanner.h"
 
 namespace invsim {
 namespace {
@@ -351,7 +352,7 @@ ZipArchive ZipArchive::Parse(std::string bytes, const std::string& name) {
     in.Take(comment_size);
     if (!seen.insert(e.name).second) {
       throw InputError(name + ": zip archive holds two members named " +
-                       e.name);
+                       Quoted(e.name));
     }
     archive.entries_.push_back(std::move(e));
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -85,6 +86,9 @@ TEST(Pc2Test, RefusesDamage) {
   std::memset(&nothing[28], 0x7f, 4);
   EXPECT_THAT([&] { ParsePc2(nothing, "t.pc2"); },
               ThrowsInputError("for 2139062143 samples of 0 points"));
+  std::swap_ranges(&nothing[16], &nothing[20], &nothing[28]);
+  EXPECT_THAT([&] { ParsePc2(nothing, "t.pc2"); },
+              ThrowsInputError("for 0 samples of 2139062143 points"));
   std::string negative = bytes;
   negative[31] = '\x80';
   EXPECT_THAT([&] { ParsePc2(negative, "t.pc2"); },

@@ -126,7 +126,7 @@ TEST(Zip, UnknownMethodAndEncryptionAreNamed) {
 TEST(Zip, TwoMembersOfOneNameAreRefused) {
   const std::string bytes = BuildZip({{"a", "1"}, {"a", "2"}});
   EXPECT_THAT([&] { ZipArchive::Parse(bytes, "x"); },
-              ThrowsMessage<InputError>(HasSubstr("two members named a")));
+              ThrowsMessage<InputError>(HasSubstr("two members named 'a'")));
 }
 
 TEST(Zip, OtherFilesAreRefused) {

@@ -11,8 +11,10 @@
 
 namespace invsim {
 
-// A word of a hostile file made fit for one line of an error message: quoted,
-// cut to 40 characters, anything unprintable shown as '?'.
+// Text of a hostile file made fit for one line of an error message: anything
+// but printable ASCII is shown as '?'.
+std::string Printable(std::string_view text);
+// The same in quotes, cut to 40 characters.
 std::string Quoted(std::string_view word);
 
 class TextScanner {

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/cloth/effect_registry.h"
 
+#include <utility>
+#include <vector>
+
+#include "invsim/cloth/effects/air_drag.h"
 #include "invsim/cloth/effects/bending.h"
 #include "invsim/cloth/effects/gravity.h"
 #include "invsim/cloth/effects/inertia.h"
+#include "invsim/cloth/effects/mass_damping.h"
 #include "invsim/cloth/effects/membrane.h"
+#include "invsim/cloth/effects/stiffness_damping.h"
 #include "invsim/cloth/mass.h"
 
 namespace invsim {
@@ -34,6 +40,35 @@ std::unique_ptr<Effect> MakeBending(const NoOptions&,
   return std::make_unique<Bending>(garment, material.bending);
 }
 
+// Damps the K of membrane and bending made from the same material, whether or
+// not the scene lists those effects.
+std::unique_ptr<Effect> MakeStiffnessDamping(
+    const StiffnessDampingOptions& options,
+    const Garment& garment,
+    const Material& material) {
+  std::vector<StiffnessDamping::Term> terms;
+  if (options.membrane > 0.0)
+    terms.push_back({std::make_unique<Membrane>(garment, material.stretch),
+                     options.membrane});
+  if (options.bending > 0.0)
+    terms.push_back({std::make_unique<Bending>(garment, material.bending),
+                     options.bending});
+  return std::make_unique<StiffnessDamping>(std::move(terms));
+}
+
+std::unique_ptr<Effect> MakeMassDamping(const MassDampingOptions& options,
+                                        const Garment& garment,
+                                        const Material& material) {
+  return std::make_unique<MassDamping>(VertexMasses(garment, material),
+                                       options);
+}
+
+std::unique_ptr<Effect> MakeAirDrag(const AirDragOptions& options,
+                                    const Garment& garment,
+                                    const Material&) {
+  return std::make_unique<AirDrag>(garment.faces, options);
+}
+
 EffectRegistry MakeRegistry() {
   EffectRegistry r("effect");
   r.Add<NoOptions>(
@@ -43,6 +78,14 @@ EffectRegistry MakeRegistry() {
                    "in-plane elasticity, finite elements, law by material",
                    MakeMembrane);
   r.Add<NoOptions>("bending", "hinge bending, law by material", MakeBending);
+  r.Add<StiffnessDampingOptions>(
+      "stiffness_damping",
+      "damping of stretching and bending, in proportion to their stiffness",
+      MakeStiffnessDamping);
+  r.Add<MassDampingOptions>("mass_damping",
+                            "damping of all motion, in proportion to mass",
+                            MakeMassDamping);
+  r.Add<AirDragOptions>("air_drag", "drag of the air, and wind", MakeAirDrag);
   return r;
 }
 

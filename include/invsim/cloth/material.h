@@ -70,6 +70,7 @@ struct Material {
   StretchModel stretch;
   BendingModel bending;
   double friction = 0.3;  // Coulomb's mu against skin, unless a scene says
+  std::string doc = {};   // one line: what it is and where the figures are from
 };
 
 // Throws InputError, opened by `name` and naming the field, if a figure is not

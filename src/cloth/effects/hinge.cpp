@@ -8,10 +8,9 @@
 namespace invsim {
 namespace {
 
-Matrix3d Cross(const Vector3d& v) {
-  Matrix3d m;
-  m << 0.0, -v[2], v[1], v[2], 0.0, -v[0], -v[1], v[0], 0.0;
-  return m;
+// m [v]x, where [v]x w = v x w.
+Matrix3d TimesCross(const Matrix3d& m, const Vector3d& v) {
+  return m.rowwise().cross(v.transpose());
 }
 
 // The shared edge, its length kept off zero.
@@ -71,14 +70,13 @@ WingSlope SlopeOf(const HingeEdge& e,
   if (!w.collapsed)
     shape -= (2.0 / (w.square * w.square)) * w.normal * w.normal.transpose();
   const Matrix3d from_normal = -e.length * side * shape;
-  const Matrix3d from_length =
-      -(w.normal / w.square) * direction.transpose();
+  const Matrix3d from_length = -(w.normal / w.square) * direction.transpose();
 
   WingSlope s;
   // N = side (x1 - x0) x (xk - x0).
-  s.u[0] = from_normal * Cross(arm - e.vector) - from_length;
-  s.u[1] = from_normal * -Cross(arm) + from_length;
-  s.u[2] = from_normal * Cross(e.vector);
+  s.u[0] = TimesCross(from_normal, arm - e.vector) - from_length;
+  s.u[1] = from_length - TimesCross(from_normal, arm);
+  s.u[2] = TimesCross(from_normal, e.vector);
   const Eigen::RowVector3d shrink =
       (2.0 * w.t / e.length) * direction.transpose();
   s.t[0] = -(e.vector + arm).transpose() * inverse_square + shrink;
@@ -97,9 +95,8 @@ Hinge Hinge::At(const Vertices& x,
   const Wing w2 = WingOf(e, x.col(2) - x.col(0), 1.0, rest_area2);
   const Wing w3 = WingOf(e, x.col(3) - x.col(0), -1.0, rest_area3);
   Hinge hinge;
-  hinge.angle =
-      std::atan2(w2.normal.cross(w3.normal).dot(e.vector) / e.length,
-                 w2.normal.dot(w3.normal));
+  hinge.angle = std::atan2(w2.normal.cross(w3.normal).dot(e.vector) / e.length,
+                           w2.normal.dot(w3.normal));
   hinge.gradient.col(0) = -(1.0 - w2.t) * w2.u - (1.0 - w3.t) * w3.u;
   hinge.gradient.col(1) = -w2.t * w2.u - w3.t * w3.u;
   hinge.gradient.col(2) = w2.u;

@@ -8,12 +8,19 @@
 #include "invsim/algebra/gmres.h"
 #include "invsim/algebra/sparse_cholesky.h"
 #include "invsim/base/stopwatch.h"
+#include "invsim/contact/friction_jacobian.h"
 
 namespace invsim {
+namespace {
+
+// Newton has stagnated if its residual did not halve in so many iterations.
+constexpr int kPatience = 3;
+
+}  // namespace
 
 struct FrictionSolver::Impl {
   explicit Impl(std::shared_ptr<const BlockPattern> p)
-      : pattern(p), cholesky(p), augmented(p) {}
+      : pattern(p), cholesky(p), augmented(p), jacobian(p) {}
 
   void Prepare();
   bool Factor();
@@ -21,12 +28,14 @@ struct FrictionSolver::Impl {
   void Admm(int iterations);
   double Evaluate();
   void ApplyJacobian(const VectorXd& z, VectorXd* out) const;
+  bool NewtonStep(bool factored, VectorXd* step);
   bool Newton();
   void CountModes();
 
   std::shared_ptr<const BlockPattern> pattern;
   SparseCholesky cholesky;
   BlockMatrix augmented;  // P
+  FrictionJacobian jacobian;
 
   FrictionProblem problem;
   FrictionOptions options;
@@ -175,9 +184,42 @@ void FrictionSolver::Impl::ApplyJacobian(const VectorXd& z,
   }
 }
 
+// Solves J step = residual, by GMRES if an earlier Jacobian is factorised.
+// False if the Jacobian is singular.
+bool FrictionSolver::Impl::NewtonStep(bool factored, VectorXd* step) {
+  const auto solve = [this](VectorXd* z) {
+    Columns column = *z;
+    jacobian.Solve(&column);
+    *z = column;
+    ++stats.solves;
+  };
+  if (factored) {
+    GmresOptions krylov;
+    krylov.tolerance = options.krylov_tolerance;
+    krylov.max_iterations = options.krylov_iterations;
+    const GmresResult result = Gmres(
+        [this](const VectorXd& z, VectorXd* out) { ApplyJacobian(z, out); },
+        solve,
+        residual,
+        krylov,
+        step);
+    if (result.relative_residual <= options.krylov_tolerance) return true;
+  }
+  ++stats.factorizations;
+  const Stopwatch watch;
+  const bool ok = jacobian.Factor(*problem.a, *problem.contacts, v, forces);
+  stats.factor_seconds += watch.seconds();
+  if (!ok) return false;
+  *step = residual;
+  solve(step);
+  return true;
+}
+
 bool FrictionSolver::Impl::Newton() {
   VectorXd best = v, step;
   double least = std::numeric_limits<double>::infinity();
+  double milestone = least;
+  int since = 0;  // iterations since the residual last halved
   for (int it = 0;; ++it) {
     stats.residual = Evaluate();
     if (stats.residual < least) {
@@ -185,16 +227,15 @@ bool FrictionSolver::Impl::Newton() {
       best = v;
     }
     if (least <= options.tolerance) return true;
-    if (it == options.newton_iterations || !std::isfinite(stats.residual))
+    if (stats.residual < 0.5 * milestone) {
+      milestone = stats.residual;
+      since = 0;
+    } else {
+      ++since;
+    }
+    if (it == options.newton_iterations || since >= kPatience ||
+        !std::isfinite(stats.residual) || !NewtonStep(it > 0, &step))
       break;
-    GmresOptions krylov;
-    krylov.tolerance = options.krylov_tolerance;
-    krylov.max_iterations = options.krylov_iterations;
-    Gmres([this](const VectorXd& z, VectorXd* out) { ApplyJacobian(z, out); },
-          [this](VectorXd* z) { PreconditionedSolve(z); },
-          residual,
-          krylov,
-          &step);
     v -= step;
     ++stats.newton_iterations;
   }
@@ -226,6 +267,7 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
   s.forces = *forces;
   s.Prepare();
   if (!s.Factor()) return s.stats;
+  const double first = s.stats.factor_seconds;
   const Stopwatch watch;
   for (int attempt = 0; attempt <= options.retries; ++attempt) {
     if (problem.contacts->empty()) {
@@ -237,7 +279,7 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
     s.stats.converged = s.Newton();
     if (s.stats.converged) break;
   }
-  s.stats.solve_seconds = watch.seconds();
+  s.stats.solve_seconds = watch.seconds() - s.stats.factor_seconds + first;
   s.CountModes();
   *v = s.v;
   *forces = s.forces;

@@ -43,12 +43,14 @@ void Describe(OptionTable* table, FrictionOptions* o) {
               .at_most = 10});
   table->Add("krylov_tolerance",
              &o->krylov_tolerance,
-             {.doc = "relative linear residual of a Newton iteration",
+             {.doc = "relative linear residual at which GMRES is done",
               .above = 0,
               .below = 1});
   table->Add("krylov_iterations",
              &o->krylov_iterations,
-             {.doc = "GMRES iterations per Newton iteration", .at_least = 1});
+             {.doc = "GMRES iterations after which the Jacobian is factorised "
+                     "anew",
+              .at_least = 0});
 }
 
 void Describe(OptionTable* table, StepOptions* o) {

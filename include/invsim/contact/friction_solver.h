@@ -12,10 +12,12 @@
 //
 // Method. P = A + sum rho_i G_i^T G_i is factorised once, rho_i the vertex's
 // own diagonal of A. A few ADMM iterations with P (closed-form local Coulomb
-// projections) find which contacts stick and slide; semismooth Newton on the
-// Alart-Curnier form finishes, its linear systems solved by GMRES with P as
-// preconditioner. If Newton does not reach the tolerance, ADMM goes on from
-// the best iterate and Newton is tried again; what is left is reported.
+// projections) find which contacts stick and slide. Semismooth Newton on the
+// Alart-Curnier form finishes: its Jacobian is factorised once, and while few
+// contacts change their mode GMRES with that factor solves the later
+// iterations. If Newton stagnates (it may cycle between modes), ADMM goes on
+// twice as long from the best iterate and Newton is tried again; what is left
+// is reported.
 
 #include <memory>
 #include <vector>
@@ -35,9 +37,10 @@ struct FrictionOptions {
   // Newton iterations before ADMM is asked again, and how often it is asked.
   int newton_iterations = 30;
   int retries = 3;
-  // Relative reduction of the linear residual in a Newton iteration.
+  // Relative linear residual at which GMRES is done, and the iterations after
+  // which the Jacobian is factorised anew instead.
   double krylov_tolerance = 1e-2;
-  int krylov_iterations = 150;
+  int krylov_iterations = 12;
 };
 
 struct FrictionStats {

@@ -17,7 +17,7 @@
 
 #include "invsim/sim/frame_record.h"
 #include "invsim/sim/simulator.h"
-#include "invsim/sim/step_jacobian.h"
+#include "invsim/contact/friction_jacobian.h"
 
 namespace invsim {
 
@@ -77,7 +77,7 @@ class Sensitivity {
   bool Factor(const SubstepRecord& sub, const LinearizationRecord& lin);
 
   const Simulator& simulator_;
-  StepJacobian jacobian_;
+  FrictionJacobian jacobian_;
   SensitivityStats stats_;
 };
 

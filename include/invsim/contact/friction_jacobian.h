@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef INVSIM_SIM_STEP_JACOBIAN_H_
-#define INVSIM_SIM_STEP_JACOBIAN_H_
+#ifndef INVSIM_CONTACT_FRICTION_JACOBIAN_H_
+#define INVSIM_CONTACT_FRICTION_JACOBIAN_H_
 
-// The derivative of one solved frictional problem by the implicit function
-// theorem (the paper's eq. 6). With F = 0 standing for momentum on the free
-// vertices and for the contact law on the others, and r = A v - b there,
+// The Jacobian J of the frictional problem F(v) = 0 of friction_solver.h, with
+// momentum on the free vertices and the contact law, r = A v - b, on the
+// others. Newton's method solves with it, and at the solution it gives the
+// derivative of v by the implicit function theorem (the paper's eq. 6):
 //
 //   J dv = rhs,   row i of J:  A_i                      free vertex
 //                              P_i A_i + Q_i            vertex in contact
@@ -14,8 +15,8 @@
 // where m is the change of the momentum's right side at fixed v, dw and dn
 // those of the contact's velocity and normal, and (P, Q, N) the derivatives of
 // the contact law with respect to (r, u, n). A compliant contact is a force and
-// adds to m and to A. J is what Newton's last iteration solved with; it is
-// symmetric, after elimination, if nothing slides with friction.
+// adds to m and to A. J is symmetric, after elimination, if nothing slides with
+// friction; then it is factorised by Cholesky, else by LU.
 
 #include <memory>
 #include <vector>
@@ -28,11 +29,11 @@
 
 namespace invsim {
 
-class StepJacobian {
+class FrictionJacobian {
  public:
-  explicit StepJacobian(std::shared_ptr<const BlockPattern> pattern);
+  explicit FrictionJacobian(std::shared_ptr<const BlockPattern> pattern);
 
-  // `v` and `forces` solve A v = b + r for `contacts`. False if J is singular.
+  // J at `v`, with the contacts' `forces` there. False if J is singular.
   bool Factor(const BlockMatrix& a,
               const std::vector<Contact>& contacts,
               const VectorXd& v,
@@ -46,6 +47,10 @@ class StepJacobian {
   // the adjoints of dn and dw are added to.
   void Adjoint(Columns* z, Columns* dn, Columns* dw) const;
 
+  // x <- J^{-1} x and x <- J^{-T} x.
+  void Solve(Columns* x) const;
+  void SolveTransposed(Columns* x) const;
+
   bool symmetric() const { return symmetric_; }
 
  private:
@@ -57,9 +62,6 @@ class StepJacobian {
                  const std::vector<Vector3d>& forces,
                  const BlockMatrix& a);
   void AssembleCompliant(const BlockMatrix& a);
-  void Solve(Columns* x) const;
-  void SolveTransposed(Columns* x) const;
-
   std::vector<Contact> contacts_;
   std::vector<Row> exact_;                      // of exact contacts
   std::vector<CompliantDerivative> compliant_;  // of the others
@@ -72,4 +74,4 @@ class StepJacobian {
 
 }  // namespace invsim
 
-#endif  // INVSIM_SIM_STEP_JACOBIAN_H_
+#endif  // INVSIM_CONTACT_FRICTION_JACOBIAN_H_

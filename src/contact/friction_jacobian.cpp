@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "invsim/sim/step_jacobian.h"
+#include "invsim/contact/friction_jacobian.h"
 
 namespace invsim {
 namespace {
@@ -20,13 +20,13 @@ void Transform(const Matrix3d& m, int i, Columns* x) {
 
 }  // namespace
 
-StepJacobian::StepJacobian(std::shared_ptr<const BlockPattern> pattern)
+FrictionJacobian::FrictionJacobian(std::shared_ptr<const BlockPattern> pattern)
     : momentum_(pattern), jacobian_(pattern) {}
 
-void StepJacobian::Linearize(const std::vector<Contact>& contacts,
-                             const VectorXd& v,
-                             const std::vector<Vector3d>& forces,
-                             const BlockMatrix& a) {
+void FrictionJacobian::Linearize(const std::vector<Contact>& contacts,
+                                 const VectorXd& v,
+                                 const std::vector<Vector3d>& forces,
+                                 const BlockMatrix& a) {
   contacts_ = contacts;
   exact_.resize(contacts.size());
   compliant_.resize(contacts.size());
@@ -54,7 +54,7 @@ void StepJacobian::Linearize(const std::vector<Contact>& contacts,
   }
 }
 
-void StepJacobian::AssembleCompliant(const BlockMatrix& a) {
+void FrictionJacobian::AssembleCompliant(const BlockMatrix& a) {
   momentum_ = a;
   for (size_t k = 0; k < contacts_.size(); ++k) {
     const Contact& c = contacts_[k];
@@ -66,10 +66,10 @@ void StepJacobian::AssembleCompliant(const BlockMatrix& a) {
   }
 }
 
-bool StepJacobian::Factor(const BlockMatrix& a,
-                          const std::vector<Contact>& contacts,
-                          const VectorXd& v,
-                          const std::vector<Vector3d>& forces) {
+bool FrictionJacobian::Factor(const BlockMatrix& a,
+                              const std::vector<Contact>& contacts,
+                              const VectorXd& v,
+                              const std::vector<Vector3d>& forces) {
   Linearize(contacts, v, forces, a);
   AssembleCompliant(a);
   jacobian_ = momentum_;
@@ -98,7 +98,7 @@ bool StepJacobian::Factor(const BlockMatrix& a,
 // J x = rhs. Symmetric case: J = P A + Q with P a projector and Q = rho (I-P)
 // at contacts (P = I, Q = 0 elsewhere). The part (I-P) x = (I-P) rhs / rho is
 // known; the rest solves P A P x = P (rhs - A known).
-void StepJacobian::Solve(Columns* x) const {
+void FrictionJacobian::Solve(Columns* x) const {
   if (!symmetric_) return lu_->Solve(x);
   Columns known = Columns::Zero(x->rows(), x->cols());
   bool any = false;
@@ -129,7 +129,7 @@ void StepJacobian::Solve(Columns* x) const {
 
 // J^T x = z, J^T = A P + Q: P x from P A P x = P z, then
 // (I-P) x = (I-P) (z - A P x) / rho.
-void StepJacobian::SolveTransposed(Columns* x) const {
+void FrictionJacobian::SolveTransposed(Columns* x) const {
   if (!symmetric_) return lu_->SolveTransposed(x);
   const Columns z = *x;
   for (size_t k = 0; k < contacts_.size(); ++k)
@@ -151,9 +151,9 @@ void StepJacobian::SolveTransposed(Columns* x) const {
   }
 }
 
-void StepJacobian::Forward(const Columns& dn,
-                           const Columns& dw,
-                           Columns* rhs) const {
+void FrictionJacobian::Forward(const Columns& dn,
+                               const Columns& dw,
+                               Columns* rhs) const {
   for (size_t k = 0; k < contacts_.size(); ++k) {
     const Contact& c = contacts_[k];
     if (c.exact()) continue;
@@ -175,7 +175,7 @@ void StepJacobian::Forward(const Columns& dn,
   Solve(rhs);
 }
 
-void StepJacobian::Adjoint(Columns* z, Columns* dn, Columns* dw) const {
+void FrictionJacobian::Adjoint(Columns* z, Columns* dn, Columns* dw) const {
   SolveTransposed(z);
   for (size_t k = 0; k < contacts_.size(); ++k) {
     const Contact& c = contacts_[k];

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/sim/sensitivity.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "sphere_scene.h"
+
+namespace invsim {
+namespace {
+
+// A sphere turned by `angle` about z, shifted and scaled by the parameters
+// (shift 3, angle, scale): what the derivative is taken with respect to.
+constexpr int kParameters = 5;
+using Parameters = Eigen::Matrix<double, kParameters, 1>;
+
+Points Place(const Points& sphere, const Parameters& p) {
+  const Matrix3d r =
+      Eigen::AngleAxisd(p[3], Vector3d::UnitZ()).toRotationMatrix();
+  Points out = (1 + p[4]) * (r * sphere);
+  out.colwise() += Vector3d(p.head<3>());
+  return out;
+}
+
+struct Case {
+  const char* name;
+  double friction;
+  int substeps;
+  int newton_iterations;
+  bool inertia = true;
+};
+
+class SensitivityTest : public testing::TestWithParam<Case> {
+ protected:
+  // Cloth that has settled on the sphere for a while, then one more frame in
+  // which the sphere moves, is differentiated.
+  void SetUp() override {
+    const Case& c = GetParam();
+    sphere_ = Icosphere(0.12, 3);
+    garment_ = Square(10, 0.35, 0.135);
+    SimulatorSetup setup = ClothSetup(garment_, sphere_);
+    if (!c.inertia) setup.effects.erase(setup.effects.begin());
+    setup.contact.friction = c.friction;
+    setup.step.substeps = c.substeps;
+    setup.step.newton_iterations = c.newton_iterations;
+    setup.step.friction.tolerance = 1e-11;
+    simulator_ = std::make_unique<Simulator>(std::move(setup));
+    start_ = AtRest(garment_);
+    StepStats stats;
+    for (int frame = 0; frame < 8; ++frame)
+      ASSERT_TRUE(simulator_->Advance(
+          sphere_.vertices, sphere_.vertices, kFrame, &start_, &stats));
+    p_ << 0.004, 0.003, -0.002, 0.06, 0.002;
+    ASSERT_TRUE(Run(p_, &record_, &end_, &stats_));
+    EXPECT_EQ(stats_.missed, 0);
+    vertices_ = Sensitivity::BodyVertices(simulator_->body_faces(), record_);
+  }
+
+  bool Run(const Parameters& p,
+           FrameRecord* record,
+           ClothState* end,
+           StepStats* stats) {
+    *end = start_;
+    return simulator_->Advance(sphere_.vertices,
+                               Place(sphere_.vertices, p),
+                               kFrame,
+                               end,
+                               stats,
+                               record);
+  }
+
+  // d(body vertices at the end)/d(parameters) of the listed vertices.
+  Columns BodyJacobian() const {
+    Columns j(3 * vertices_.size(), kParameters);
+    const double h = 1e-6;
+    for (int k = 0; k < kParameters; ++k) {
+      const Points d = (Place(sphere_.vertices, p_ + h * Parameters::Unit(k)) -
+                        Place(sphere_.vertices, p_ - h * Parameters::Unit(k))) /
+                       (2 * h);
+      for (size_t i = 0; i < vertices_.size(); ++i)
+        j.col(k).segment<3>(3 * i) = d.col(vertices_[i]);
+    }
+    return j;
+  }
+
+  // Whether two frames have the same contacts in the same modes.
+  static bool SameSet(const FrameRecord& a, const FrameRecord& b) {
+    if (a.substeps.size() != b.substeps.size()) return false;
+    for (size_t s = 0; s < a.substeps.size(); ++s) {
+      const SubstepRecord &x = a.substeps[s], &y = b.substeps[s];
+      if (x.sources.size() != y.sources.size()) return false;
+      for (size_t k = 0; k < x.sources.size(); ++k) {
+        if (x.sources[k].vertex != y.sources[k].vertex ||
+            x.sources[k].face != y.sources[k].face ||
+            x.sources[k].feature != y.sources[k].feature ||
+            Mode(x, k) != Mode(y, k))
+          return false;
+      }
+    }
+    return true;
+  }
+  static ContactMode Mode(const SubstepRecord& s, size_t k) {
+    const Contact& c = s.contacts[k];
+    const LinearizationRecord& lin = s.linearizations.back();
+    const Vector3d u = c.Gather(lin.v) - c.velocity;
+    if (!c.exact())
+      return DifferentiateCompliantForce(c.normal, c.friction, c.compliance, u)
+          .mode;
+    return LinearizeAlartCurnier(c.normal, c.friction, 1, lin.forces[k], u)
+        .mode;
+  }
+
+  static constexpr double kFrame = 1 / 60.0;
+  TriangleMesh sphere_;
+  Garment garment_;
+  std::unique_ptr<Simulator> simulator_;
+  ClothState start_, end_;
+  Parameters p_;
+  FrameRecord record_;
+  StepStats stats_;
+  std::vector<int> vertices_;
+};
+
+TEST_P(SensitivityTest, ForwardMatchesDifferencesWhileSetsStay) {
+  Sensitivity sensitivity(*simulator_);
+  StateColumns d;
+  ASSERT_TRUE(sensitivity.Forward(
+      record_, vertices_, Columns(), BodyJacobian(), nullptr, &d));
+  int compared = 0;
+  for (int k = 0; k < kParameters; ++k) {
+    double best = 1e9;
+    for (double h : {1e-5, 1e-6, 1e-7}) {
+      VectorXd difference[2];
+      bool same = true;
+      for (int order : {1, 2}) {
+        ClothState plus, minus;
+        FrameRecord rp, rm;
+        StepStats stats;
+        const Parameters dp = order * h * Parameters::Unit(k);
+        ASSERT_TRUE(Run(p_ + dp, &rp, &plus, &stats));
+        ASSERT_TRUE(Run(p_ - dp, &rm, &minus, &stats));
+        same = same && SameSet(record_, rp) && SameSet(record_, rm);
+        difference[order - 1] =
+            (Stacked(plus.x) - Stacked(minus.x)) / (2 * order * h);
+      }
+      if (!same) continue;
+      const VectorXd numeric = (4 * difference[0] - difference[1]) / 3;
+      best = std::min(best, (d.x.col(k) - numeric).norm() / numeric.norm());
+    }
+    if (best > 1e8) continue;  // sets switch at every step tried
+    ++compared;
+    EXPECT_LT(best, 1e-6) << "parameter " << k;
+  }
+  EXPECT_GE(compared, 3);
+  RecordProperty("stick", stats_.stick);
+  RecordProperty("slide", stats_.slide);
+}
+
+TEST_P(SensitivityTest, AdjointIsTheTranspose) {
+  Sensitivity sensitivity(*simulator_);
+  const int n = 3 * simulator_->num_vertices();
+  const int m = 3 * static_cast<int>(vertices_.size());
+  std::srand(3);
+  const Columns body0 = MatrixXd::Random(m, 2), body1 = MatrixXd::Random(m, 2);
+  const StateColumns start{MatrixXd::Random(n, 2), MatrixXd::Random(n, 2)};
+  const StateColumns weights{MatrixXd::Random(n, 3), MatrixXd::Random(n, 3)};
+  StateColumns end, start_weights;
+  Columns w0, w1;
+  ASSERT_TRUE(
+      sensitivity.Forward(record_, vertices_, body0, body1, &start, &end));
+  ASSERT_TRUE(sensitivity.Adjoint(
+      record_, vertices_, weights, &w0, &w1, &start_weights));
+  const MatrixXd forward =
+      weights.x.transpose() * end.x + weights.v.transpose() * end.v;
+  const MatrixXd adjoint = w0.transpose() * body0 + w1.transpose() * body1 +
+                           start_weights.x.transpose() * start.x +
+                           start_weights.v.transpose() * start.v;
+  EXPECT_LT((forward - adjoint).norm(), 1e-10 * forward.norm());
+}
+
+TEST_P(SensitivityTest, StartOfFrameMatchesDifferences) {
+  Sensitivity sensitivity(*simulator_);
+  const int n = 3 * simulator_->num_vertices();
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  StateColumns start{Columns(n, 1), Columns(n, 1)}, d;
+  for (int i = 0; i < n; ++i) {
+    start.x(i, 0) = normal(random);
+    start.v(i, 0) = 10 * normal(random);
+  }
+  ASSERT_TRUE(sensitivity.Forward(
+      record_, vertices_, Columns(), Columns(), &start, &d));
+  double best = 1e9;
+  for (double h : {3e-7, 1e-7, 3e-8, 1e-8}) {
+    VectorXd x[2];
+    bool same = true;
+    for (int side : {0, 1}) {
+      const double s = side == 0 ? -h : h;
+      const ClothState saved = start_;
+      Stacked(start_.x) += s * start.x.col(0);
+      Stacked(start_.v) += s * start.v.col(0);
+      FrameRecord record;
+      ClothState end;
+      StepStats stats;
+      ASSERT_TRUE(Run(p_, &record, &end, &stats));
+      start_ = saved;
+      same = same && SameSet(record_, record);
+      x[side] = Stacked(end.x);
+    }
+    if (!same) continue;
+    const VectorXd numeric = (x[1] - x[0]) / (2 * h);
+    best = std::min(best, (d.x.col(0) - numeric).norm() / numeric.norm());
+  }
+  EXPECT_LT(best, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes,
+                         SensitivityTest,
+                         testing::Values(Case{"OneSubstep", 0.3, 1, 1},
+                                         Case{"Frictionless", 0.0, 2, 1},
+                                         Case{"SlideAndStick", 0.3, 3, 1},
+                                         Case{"MostlyStick", 2.0, 3, 1},
+                                         Case{"Relinearised", 0.3, 2, 3},
+                                         Case{"QuasiStatic", 0.5, 2, 1, false}),
+                         [](const auto& info) {
+                           return std::string(info.param.name);
+                         });
+
+}  // namespace
+}  // namespace invsim

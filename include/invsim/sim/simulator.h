@@ -69,7 +69,8 @@ struct Pin {
 };
 
 // What a simulator is made of. An effect called "inertia" gives the cloth its
-// mass in the momentum balance; without it steps are quasi-static.
+// mass in the momentum balance; without it steps are quasi-static, and loose
+// cloth needs something else that resists it (mass damping, pins).
 struct SimulatorSetup {
   Faces faces;    // of the cloth
   VectorXd mass;  // kg per vertex

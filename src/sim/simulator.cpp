@@ -131,6 +131,7 @@ struct Simulator::Impl {
   std::unique_ptr<BodyContactDetector> detector;
   VectorXd weight;
   Points contact_force;
+  Points last_x;       // where the last frame ended
   SubstepRecord last;  // the last sub-step advanced, without matrices
   int num_body_vertices = 0;
 };
@@ -387,6 +388,10 @@ bool Simulator::Advance(const Points& body0,
     record->substeps.clear();
   }
   s.num_body_vertices = static_cast<int>(body1.cols());
+  // Forces of the last step start the next one, unless the cloth was moved
+  // from outside: results depend on what is given and nothing else.
+  if (s.last_x.cols() != state->x.cols() || s.last_x != state->x)
+    s.contact_force.setZero();
   ClothState moved = *state;
   const int substeps = s.setup.step.substeps;
   for (int k = 0; k < substeps; ++k) {
@@ -402,6 +407,7 @@ bool Simulator::Advance(const Points& body0,
       return false;
   }
   *state = std::move(moved);
+  s.last_x = state->x;
   return true;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "invsim/base/threads.h"
+
 namespace invsim {
 namespace {
 
@@ -38,6 +40,7 @@ std::vector<int> Ordering(const BlockPattern& p, cholmod_common* common) {
 
 CholmodAnalysis::CholmodAnalysis(std::shared_ptr<const BlockPattern> pattern)
     : pattern_(std::move(pattern)) {
+  HoldLinearAlgebraToOneThread();
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;

@@ -15,16 +15,22 @@
 namespace invsim {
 namespace {
 
-// OpenBLAS is linked by the layers that factorise, or stands behind the
-// system's BLAS, or is not there at all; only the running program knows.
-void HoldBlasToOneThread() {
-  using SetNumThreads = void (*)(int);
-  const auto set = reinterpret_cast<SetNumThreads>(
-      dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-  if (set) set(1);
+void CallIfLoaded(const char* function, int argument) {
+  using Function = void (*)(int);
+  const auto f = reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, function));
+  if (f) f(argument);
 }
 
 }  // namespace
+
+// OpenBLAS is linked by the layers that factorise, or stands behind the
+// system's BLAS, or is not there at all; only the running program knows. The
+// same holds for OpenMP, of which CHOLMOD asks for four threads whatever the
+// machine has: no parallel region may become active.
+void HoldLinearAlgebraToOneThread() {
+  CallIfLoaded("openblas_set_num_threads", 1);
+  CallIfLoaded("omp_set_max_active_levels", 0);
+}
 
 void SetThreads(int threads) {
   if (threads < 0)
@@ -36,7 +42,7 @@ void SetThreads(int threads) {
   control.reset();
   control = std::make_unique<tbb::global_control>(
       tbb::global_control::max_allowed_parallelism, wanted);
-  HoldBlasToOneThread();
+  HoldLinearAlgebraToOneThread();
 }
 
 int NumThreads() {

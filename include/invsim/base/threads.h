@@ -17,6 +17,12 @@ namespace invsim {
 // are the better place for the second core. Throws UsageError if negative.
 void SetThreads(int threads);
 
+// Keeps BLAS and the OpenMP loops of sparse libraries to the calling thread:
+// at the sizes of cloth their threads cost more than they bring, and on a busy
+// machine their barriers cost twenty times the work (docs/performance.md). For
+// the whole process; whoever factorises calls it first.
+void HoldLinearAlgebraToOneThread();
+
 // What SetThreads chose; one per core before.
 int NumThreads();
 

@@ -42,7 +42,7 @@ std::vector<Material> MakeMaterials() {
       "plain woven shirting");
   add("denim",
       0.324,
-      Woven(6400.0, 6400.0, 110.0, 0.2),
+      Woven(6600.0, 6600.0, 110.0, 0.2),
       17e-6,
       "11 oz cotton denim");
   add("jersey",

@@ -20,7 +20,7 @@ struct HingeEdge {
   bool collapsed;
 };
 
-HingeEdge EdgeOf(const Hinge::Vertices& x, double rest_length) {
+inline HingeEdge EdgeOf(const Hinge::Vertices& x, double rest_length) {
   const Vector3d e = x.col(1) - x.col(0);
   const double length = e.norm();
   const double least = kCollapse * rest_length;
@@ -37,10 +37,10 @@ struct Wing {
 };
 
 // `side` is +1 for face (x0, x1, xk), -1 for (x1, x0, xk).
-Wing WingOf(const HingeEdge& e,
-            const Vector3d& arm,
-            double side,
-            double rest_area) {
+inline Wing WingOf(const HingeEdge& e,
+                   const Vector3d& arm,
+                   double side,
+                   double rest_area) {
   Wing w;
   w.normal = side * e.vector.cross(arm);
   w.square = w.normal.squaredNorm();

@@ -10,9 +10,9 @@ namespace {
 
 using Constants = StretchLaw::Constants;
 
-constexpr int kSamples = 30;                // grid points per axis
-constexpr double kPerStrain = 30.0;         // grid points per unit of strain
-constexpr double kLowest = -0.25;           // first E11 and E22
+constexpr int kSamples = 30;                 // grid points per axis
+constexpr double kPerStrain = 30.0;          // grid points per unit of strain
+constexpr double kLowest = -0.25;            // first E11 and E22
 constexpr double kMeasuredStretch = 1 / 6.;  // stretch of rows 1 to 5
 
 // The constants of a measured fabric at one strain, by the definition.
@@ -37,8 +37,8 @@ Constants Evaluate(const MeasuredStretch& fabric,
   for (int k = 0; k < 4; ++k) {
     const double measured = (1.0 - part) * fabric.table[1 + lower][k] +
                             part * fabric.table[2 + lower][k];
-    c[k] = std::max(
-        0.0, (1.0 - weight) * fabric.table[0][k] + weight * measured);
+    c[k] =
+        std::max(0.0, (1.0 - weight) * fabric.table[0][k] + weight * measured);
   }
   c.head<3>() *= 2.0;
   c[1] = std::min(c[1], std::sqrt(c[0] * c[2]));

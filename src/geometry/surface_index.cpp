@@ -123,7 +123,7 @@ struct SurfaceIndex::Impl {
   RTCRayHit Ray(const Vector3d& origin,
                 const Vector3d& unit,
                 double max_distance) const;
-  bool WindsRound(const Vector3d& query, const Vector3d& direction) const;
+  int Crossings(const Vector3d& query, const Vector3d& direction) const;
 
   Points x;
   Faces faces;
@@ -240,14 +240,14 @@ RTCRayHit SurfaceIndex::Impl::Ray(const Vector3d& origin,
   return r;
 }
 
-bool SurfaceIndex::Impl::WindsRound(const Vector3d& query,
-                                    const Vector3d& direction) const {
+int SurfaceIndex::Impl::Crossings(const Vector3d& query,
+                                  const Vector3d& direction) const {
   CrossingContext context;
   rtcInitIntersectContext(&context);
   context.filter = CountCrossing;
   RTCRayHit r = Ray(query, direction.normalized(), kInfinity);
   rtcIntersect1(scene, &context, &r);
-  return context.winding > 0;
+  return context.winding;
 }
 
 SurfaceIndex::SurfaceIndex(const Points& vertices, const Faces& faces) {
@@ -343,15 +343,16 @@ bool SurfaceIndex::AnyHit(const Vector3d& origin,
   return r.ray.tfar < 0.0f;
 }
 
-bool SurfaceIndex::Contains(const Vector3d& query) const {
+int SurfaceIndex::WindingNumber(const Vector3d& query) const {
   // Three directions without relation to the axes or each other.
   static const Vector3d kDirections[3] = {{0.5377, 0.8339, -0.2588},
                                           {-0.8622, 0.3188, 0.3077},
                                           {0.4336, -0.3426, 0.9578}};
-  int inside = 0;
-  for (const Vector3d& d : kDirections)
-    inside += impl_->WindsRound(query, d) ? 1 : 0;
-  return inside >= 2;
+  int crossings[3];
+  for (int k = 0; k < 3; ++k)
+    crossings[k] = impl_->Crossings(query, kDirections[k]);
+  std::sort(crossings, crossings + 3);
+  return crossings[1];
 }
 
 }  // namespace invsim

@@ -13,8 +13,7 @@ void FrameStats::Add(const FrameStats& next) {
   step.Add(next.step);
   seconds += next.seconds;
   mean_speed = next.mean_speed;
-  penetration = std::max(penetration, next.penetration);
-  inside = std::max(inside, next.inside);
+  penetration.KeepWorst(next.penetration);
 }
 
 double MeanSpeed(const ClothState& state) {
@@ -23,7 +22,7 @@ double MeanSpeed(const ClothState& state) {
 
 FrameStepper::FrameStepper(Simulator* simulator, Points body, ClothState state)
     : simulator_(simulator),
-      measure_(body, simulator->body_faces()),
+      surface_(body, simulator->body_faces()),
       body_(std::move(body)),
       state_(std::move(state)) {}
 
@@ -42,7 +41,6 @@ bool FrameStepper::Step(Points body, double duration, FrameStats* stats) {
   const FrameStats now = Measure();
   own.mean_speed = now.mean_speed;
   own.penetration = now.penetration;
-  own.inside = now.inside;
   stats->Add(own);
   return true;
 }
@@ -50,10 +48,8 @@ bool FrameStepper::Step(Points body, double duration, FrameStats* stats) {
 FrameStats FrameStepper::Measure() {
   FrameStats now;
   now.mean_speed = MeanSpeed(state_);
-  const BodyContactDetector::Penetration p =
-      measure_.MeasurePenetration(body_, state_.x);
-  now.penetration = p.deepest;
-  now.inside = p.count;
+  surface_.Update(body_);
+  now.penetration = MeasurePenetration(surface_, state_.x);
   return now;
 }
 

@@ -213,7 +213,9 @@ TEST(SurfaceIndex, ContainsIsRightWhereTheSurfaceCrossesItself) {
   const Vector3d q(-0.02, 0.0, 0.0);
   EXPECT_GT(index.Nearest(q).signed_distance, 0.0);
   EXPECT_TRUE(index.Contains(q));
+  EXPECT_EQ(index.WindingNumber(q), 1);
   EXPECT_TRUE(index.Contains(Vector3d(0.5, 0.1, 0.0)));
+  EXPECT_EQ(index.WindingNumber(Vector3d(0.5, 0.1, 0.0)), 2);
   EXPECT_FALSE(index.Contains(Vector3d(0.5, 1.0, 0.0)));
 }
 

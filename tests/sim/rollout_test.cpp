@@ -60,7 +60,7 @@ TEST(Rollout, GivesEveryFrameInOrderAndSumsThem) {
   EXPECT_EQ(result.stats.step.substeps, sum.step.substeps);
   EXPECT_GE(result.stats.step.substeps, 5 * scene.options.step.substeps);
   EXPECT_EQ(result.stats.step.missed, 0);
-  EXPECT_LT(result.stats.penetration, 1e-3);
+  EXPECT_LT(result.stats.penetration.deepest, 1e-3);
 }
 
 TEST(Rollout, IsTheSameAsAdvancingByHand) {
@@ -132,18 +132,15 @@ TEST(Rollout, KeepsTheLastGoodStateIfItFails) {
 TEST(FrameStats, AddKeepsTheWorstAndTheLast) {
   FrameStats sum, a, b;
   a.seconds = 1;
-  a.penetration = 0.002;
-  a.inside = 3;
+  a.penetration.deepest = 0.002;
   a.mean_speed = 0.4;
   b.seconds = 2;
-  b.penetration = 0.001;
-  b.inside = 1;
+  b.penetration.deepest = 0.001;
   b.mean_speed = 0.1;
   sum.Add(a);
   sum.Add(b);
   EXPECT_EQ(sum.seconds, 3);
-  EXPECT_EQ(sum.penetration, 0.002);
-  EXPECT_EQ(sum.inside, 3);
+  EXPECT_EQ(sum.penetration.deepest, 0.002);
   EXPECT_EQ(sum.mean_speed, 0.1);
 }
 
@@ -154,8 +151,8 @@ TEST(FrameStepper, MeasuresPenetration) {
   state.x.row(1).array() -= 0.015;  // the middle is 1 cm inside
   FrameStepper stepper(&simulator, scene.At(0), state);
   const FrameStats now = stepper.Measure();
-  EXPECT_GT(now.inside, 0);
-  EXPECT_NEAR(now.penetration, 0.01, 0.002);
+  EXPECT_GT(now.penetration.inside, 0);
+  EXPECT_NEAR(now.penetration.deepest, 0.01, 0.002);
 }
 
 }  // namespace

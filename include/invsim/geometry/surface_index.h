@@ -87,11 +87,15 @@ class SurfaceIndex {
               const Vector3d& direction,
               double max_distance) const;
 
-  // Whether the closed surface winds round the point a positive number of
-  // times: unlike the sign of the distance this stays right where the surface
-  // crosses itself, as skin does in a bent joint. Decided by the signed
-  // crossings of three rays, the majority of which is taken.
-  bool Contains(const Vector3d& query) const;
+  // How often the closed surface winds round the point: 0 outside, 1 inside,
+  // 2 where two of its parts overlap, as in a bent joint. The median of the
+  // signed crossings of three rays.
+  int WindingNumber(const Vector3d& query) const;
+  // Whether it is positive: unlike the sign of the distance this stays right
+  // where the surface crosses itself.
+  bool Contains(const Vector3d& query) const {
+    return WindingNumber(query) > 0;
+  }
 
  private:
   struct Impl;

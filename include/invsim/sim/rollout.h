@@ -7,7 +7,8 @@
 
 #include <functional>
 
-#include "invsim/contact/body_contact.h"
+#include "invsim/geometry/surface_index.h"
+#include "invsim/sim/penetration.h"
 #include "invsim/sim/simulator.h"
 
 namespace invsim {
@@ -20,12 +21,11 @@ enum class RunStatus {
 
 struct FrameStats {
   StepStats step;
-  double seconds = 0;      // of wall clock
-  double mean_speed = 0;   // of the cloth's vertices, m/s
-  double penetration = 0;  // deepest vertex inside the body, m
-  int inside = 0;          // vertices inside the body
+  double seconds = 0;     // of wall clock
+  double mean_speed = 0;  // of the cloth's vertices, m/s
+  Penetration penetration;
 
-  // Sums; of speed the last, of penetration and inside the worst.
+  // Sums; of speed the last, of penetration the worst.
   void Add(const FrameStats& next);
 };
 
@@ -55,7 +55,7 @@ class FrameStepper {
 
  private:
   Simulator* simulator_;
-  BodyContactDetector measure_;
+  SurfaceIndex surface_;  // of the body, for measuring
   Points body_;
   ClothState state_;
 };

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_REPORT_RUN_FOLDER_H_
+#define INVSIM_REPORT_RUN_FOLDER_H_
+
+// The folder in which a run leaves its results:
+//
+//   report.json  report.html  solver.txt  iterations.csv
+//   config.resolved.toml  body.npz  cloth.pc2  scene.glb
+//   body/000000.ply ...  cloth/000000.ply ...  checkpoint/
+//
+// Every file appears complete or not at all.
+
+#include <string>
+#include <string_view>
+
+namespace invsim {
+
+class RunFolder {
+ public:
+  // Makes the folder, with those above it. Throws UsageError if there is
+  // something else of that name, or files in it and not `force`; InputError if
+  // it cannot be made or written to. With `force` the files of an earlier run,
+  // those named above, are removed, so that no frame of it is left among the
+  // new ones; anything else stays.
+  RunFolder(const std::string& path, bool force);
+
+  const std::string& path() const { return path_; }
+  // "PATH/name".
+  std::string File(const std::string& name) const;
+  // "PATH/kind/000012.ply"; makes the sub-folder `kind`, "body" or "cloth".
+  std::string Frame(const std::string& kind, int frame) const;
+  // Throws InputError.
+  void Write(const std::string& name, std::string_view bytes) const;
+
+ private:
+  std::string path_;
+};
+
+}  // namespace invsim
+
+#endif  // INVSIM_REPORT_RUN_FOLDER_H_

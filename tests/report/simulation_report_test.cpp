@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/report/simulation_report.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace invsim {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+SimulationReport Example() {
+  SimulationReport r;
+  r.body = "b.npz";
+  r.garment = "g\xff.obj";  // no UTF-8
+  r.material = "jersey";
+  r.effects = {"inertia", "gravity"};
+  r.frames_wanted = 3;
+  r.frames_per_second = 30;
+  r.tolerance = 1e-6;
+  r.thickness = 0.002;
+  r.threads = 1;
+  r.relaxation.at_rest = true;
+  r.relaxation.rest_speed = 0.008;
+  r.relaxation.frames = 40;
+  r.relaxation.stats.step.substeps = 160;
+  r.frames.resize(3);
+  r.frames[1].step.substeps = 4;
+  r.frames[2].step.substeps = 6;
+  r.frames[2].step.missed = 2;
+  r.frames[2].step.worst_residual = 3e-5;
+  r.frames[2].penetration.deepest = 0.0004;
+  r.stress = {1, 2, 3};
+  for (const FrameStats& f : r.frames) r.sequence.stats.Add(f);
+  r.sequence.frames = 3;
+  return r;
+}
+
+TEST(SimulationReport, CountsMissedStepsInTheVerdict) {
+  SimulationReport r = Example();
+  EXPECT_EQ(MissedSteps(r), 2);
+  EXPECT_THAT(Verdict(r),
+              AllOf(HasSubstr("Complete: 3 of 3 frames"),
+                    HasSubstr("2 of 170 steps missed"),
+                    HasSubstr("3e-05"),
+                    HasSubstr("0.4 mm")));
+  r.sequence.stats.step.missed = 0;
+  EXPECT_THAT(Verdict(r), HasSubstr("Every one of 170 steps"));
+}
+
+TEST(SimulationReport, StatusIsOfTheFirstPartThatDidNotComplete) {
+  SimulationReport r = Example();
+  EXPECT_EQ(Status(r), RunStatus::kComplete);
+  r.sequence.status = RunStatus::kInterrupted;
+  EXPECT_EQ(Status(r), RunStatus::kInterrupted);
+  r.relaxation.status = RunStatus::kFailed;
+  EXPECT_EQ(Status(r), RunStatus::kFailed);
+  EXPECT_THAT(Verdict(r), HasSubstr("Failed"));
+}
+
+TEST(SimulationReport, JsonIsVersionedAndHoldsEveryFrame) {
+  const nlohmann::json json = nlohmann::json::parse(SimulationJson(Example()));
+  EXPECT_EQ(json["schema"], "invsim.simulation");
+  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["status"], "complete");
+  EXPECT_EQ(json["usable"], true);
+  EXPECT_EQ(json["inputs"]["thickness_mm"], 2.0);
+  EXPECT_EQ(json["counts"]["frames_done"], 3);
+  EXPECT_EQ(json["total"]["steps"], 170);
+  EXPECT_EQ(json["total"]["steps_missed"], 2);
+  EXPECT_EQ(json["sequence"]["steps"], 10);
+  EXPECT_EQ(json["relaxation"]["at_rest"], true);
+  ASSERT_EQ(json["frames"].size(), 3u);
+  EXPECT_EQ(json["frames"][2]["frame"], 2);
+  EXPECT_EQ(json["frames"][2]["penetration_max_mm"], 0.4);
+  EXPECT_EQ(json["frames"][1]["stress_p99_n_per_m"], 2.0);
+}
+
+TEST(SimulationReport, TextSaysWhatHappenedInBothParts) {
+  const std::string text = SimulationText(Example());
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("Relaxation: 40 frames, at rest"),
+                    HasSubstr("mean speed 0.8 cm/s"),
+                    HasSubstr("Sequence: 3 of 3 frames, complete"),
+                    HasSubstr("inertia, gravity")));
+}
+
+TEST(SimulationReport, ChartsHaveOneValuePerFrame) {
+  for (const Chart& chart : SimulationCharts(Example())) {
+    EXPECT_EQ(chart.x.size(), 3u) << chart.title;
+    for (const ChartSeries& s : chart.series)
+      EXPECT_EQ(s.values.size(), 3u) << chart.title;
+  }
+}
+
+}  // namespace
+}  // namespace invsim

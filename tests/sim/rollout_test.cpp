@@ -75,8 +75,9 @@ TEST(Rollout, IsTheSameAsAdvancingByHand) {
     ASSERT_TRUE(other.Advance(
         scene.At(t - 1), scene.At(t), 1 / 30.0, &by_hand, &stats));
   }
-  EXPECT_EQ(state.x, by_hand.x);
-  EXPECT_EQ(state.v, by_hand.v);
+  // Up to rounding: sums of the linear algebra depend on where in memory it is.
+  EXPECT_LT((state.x - by_hand.x).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((state.v - by_hand.v).cwiseAbs().maxCoeff(), 1e-8);
 }
 
 TEST(Rollout, WithoutContactTheSheetFallsFreely) {

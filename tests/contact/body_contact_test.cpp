@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/contact/body_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "geometry/shapes.h"
+
+namespace invsim {
+namespace {
+
+constexpr double kDt = 0.005;
+
+struct Found {
+  std::vector<Contact> contacts;
+  std::vector<BodyContact> sources;
+};
+
+class BodyContactTest : public testing::Test {
+ protected:
+  Found Detect(const TriangleMesh& body,
+               const Points& body1,
+               const Points& x,
+               const Points& v) {
+    BodyContactDetector detector(body.vertices, body.faces);
+    detector.FindInside(body.vertices, x);
+    Found found;
+    detector.Detect(options_,
+                    kDt,
+                    body.vertices,
+                    body1,
+                    x,
+                    v,
+                    VectorXd::Constant(x.cols(), 1e-4),
+                    &found.contacts,
+                    &found.sources);
+    return found;
+  }
+  Found DetectAtRest(const TriangleMesh& body, const Vector3d& x) {
+    return Detect(body, body.vertices, x, Points::Zero(3, 1));
+  }
+  BodyContactOptions options_;
+};
+
+// Two balls that overlap or nearly touch along x, as one surface.
+TriangleMesh TwoBalls(double distance) {
+  const TriangleMesh ball = Sphere(3);
+  const int n = static_cast<int>(ball.vertices.cols());
+  const int f = static_cast<int>(ball.faces.cols());
+  TriangleMesh both;
+  both.vertices.resize(3, 2 * n);
+  both.vertices << 0.1 * ball.vertices, 0.1 * ball.vertices;
+  both.vertices.rightCols(n).row(0).array() += distance;
+  both.faces.resize(3, 2 * f);
+  both.faces << ball.faces, ball.faces.array() + n;
+  return both;
+}
+
+TEST_F(BodyContactTest, OneContactOnAConvexSurface) {
+  TriangleMesh ball = Sphere(3);
+  ball.vertices *= 0.1;
+  const Vector3d direction = Vector3d(0.3, 0.8, -0.4).normalized();
+  const Found found = DetectAtRest(ball, 0.1025 * direction);
+  ASSERT_EQ(found.contacts.size(), 1u);
+  EXPECT_GT(found.contacts[0].normal.dot(direction), 0.98);
+  EXPECT_TRUE(found.contacts[0].exact());
+  EXPECT_EQ(found.sources[0].side, 1);
+}
+
+TEST_F(BodyContactTest, NothingOutOfReach) {
+  TriangleMesh ball = Sphere(3);
+  ball.vertices *= 0.1;
+  EXPECT_TRUE(DetectAtRest(ball, {0.12, 0, 0}).contacts.empty());
+}
+
+TEST_F(BodyContactTest, AFastVertexFindsWhatItWouldPass) {
+  TriangleMesh ball = Sphere(3);
+  ball.vertices *= 0.1;
+  Points x(3, 1), v(3, 1);
+  x.col(0) << 0, 0.12, 0;
+  v.col(0) << 0, -5, 0;
+  EXPECT_EQ(Detect(ball, ball.vertices, x, v).contacts.size(), 1u);
+  // The same relative motion with the body moving.
+  v.setZero();
+  const Points moved = ball.vertices.colwise() + Vector3d(0, 5 * kDt, 0);
+  const Found found = Detect(ball, moved, x, v);
+  ASSERT_EQ(found.contacts.size(), 1u);
+  EXPECT_GT(found.contacts[0].velocity.y(), 1);
+}
+
+TEST_F(BodyContactTest, TwoContactsBetweenTwoBodies) {
+  const TriangleMesh balls = TwoBalls(0.205);
+  const Found found = DetectAtRest(balls, {0.1025, 0, 0});
+  ASSERT_EQ(found.contacts.size(), 2u);
+  EXPECT_LT(found.contacts[0].normal.dot(found.contacts[1].normal), -0.98);
+  for (const Contact& c : found.contacts) EXPECT_FALSE(c.exact());
+}
+
+TEST_F(BodyContactTest, SqueezedBetweenOverlappingBodiesBothPushBack) {
+  const TriangleMesh balls = TwoBalls(0.19);
+  const Found found = DetectAtRest(balls, {0.095, 0, 0});
+  ASSERT_EQ(found.contacts.size(), 2u);
+  EXPECT_LT(found.contacts[0].normal.dot(found.contacts[1].normal), -0.95);
+  for (const BodyContact& s : found.sources) EXPECT_EQ(s.side, -1);
+}
+
+TEST_F(BodyContactTest, InsideIsLedOutThroughTheNearestPoint) {
+  TriangleMesh ball = Sphere(3);
+  ball.vertices *= 0.1;
+  const Vector3d direction = Vector3d(0.3, 0.8, -0.4).normalized();
+  const Found found = DetectAtRest(ball, 0.07 * direction);
+  ASSERT_EQ(found.contacts.size(), 1u);
+  EXPECT_EQ(found.sources[0].side, -1);
+  EXPECT_GT(found.contacts[0].normal.dot(direction), 0.98);
+  EXPECT_NEAR(found.contacts[0].velocity.norm(), options_.recovery_speed, 1e-9);
+}
+
+TEST_F(BodyContactTest, TheFarSideOfAThinPartIsNoObstacle) {
+  TriangleMesh finger = Sphere(3);
+  finger.vertices *= 0.004;  // thinner than the reach of the search
+  const Found found = DetectAtRest(finger, {0.0055, 0, 0});
+  ASSERT_EQ(found.contacts.size(), 1u);
+  EXPECT_GT(found.contacts[0].normal.x(), 0.9);
+}
+
+TEST_F(BodyContactTest, FindInsideCounts) {
+  TriangleMesh ball = Sphere(3);
+  ball.vertices *= 0.1;
+  BodyContactDetector detector(ball.vertices, ball.faces);
+  Points x(3, 3);
+  x << 0, 0.2, 0.05, 0, 0, 0, 0.01, 0, 0;
+  EXPECT_EQ(detector.FindInside(ball.vertices, x), 2);
+}
+
+}  // namespace
+}  // namespace invsim

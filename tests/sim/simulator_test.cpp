@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/sim/simulator.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "invsim/body/rotation.h"
+#include "invsim/sim/sensitivity.h"
+#include "sphere_scene.h"
+
+namespace invsim {
+namespace {
+
+constexpr double kFrame = 1 / 60.0;
+constexpr double kGravity = 9.8;  // the default
+
+TEST(Simulator, FreeFallIsExactForTheScheme) {
+  const Garment garment = Square(6, 0.3, 1.0);
+  SimulatorSetup setup = ClothSetup(garment, Icosphere(0.1, 1));
+  setup.step.substeps = 4;
+  Simulator simulator(std::move(setup));
+  ClothState state = AtRest(garment);
+  StepStats stats;
+  const Points body = Icosphere(0.1, 1).vertices;
+  for (int frame = 0; frame < 5; ++frame)
+    ASSERT_TRUE(simulator.Advance(body, body, kFrame, &state, &stats));
+  // Implicit Euler: v_n = -g n dt, x_n = x_0 - g dt^2 n (n + 1)/2.
+  const int n = 20;
+  const double dt = kFrame / 4;
+  const double drop = kGravity * dt * dt * n * (n + 1) / 2;
+  for (int i = 0; i < garment.num_vertices(); ++i) {
+    EXPECT_LT((state.v.col(i) - Vector3d(0, -kGravity * n * dt, 0)).norm(),
+              1e-9);
+    EXPECT_LT(
+        (garment.placed.col(i) - state.x.col(i) - Vector3d(0, drop, 0)).norm(),
+        1e-9);
+  }
+}
+
+// The plate tilted by `angle` about z, cloth lying on it.
+struct Incline {
+  Incline(double angle, double mu) {
+    turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+    plate = Slab(2, 0.5);
+    plate.vertices = turn * plate.vertices;
+    garment = Square(6, 0.3, 0.002);
+    const Points flat = garment.placed;
+    SimulatorSetup setup = ClothSetup(garment, plate);
+    setup.contact.friction = mu;
+    setup.step.friction.tolerance = 1e-8;
+    simulator = std::make_unique<Simulator>(std::move(setup));
+    state = {turn * flat, Points::Zero(3, flat.cols())};
+  }
+  bool Run(int frames) {
+    for (int k = 0; k < frames; ++k)
+      if (!simulator->Advance(
+              plate.vertices, plate.vertices, kFrame, &state, &stats))
+        return false;
+    return stats.missed == 0;
+  }
+  Matrix3d turn;
+  TriangleMesh plate;
+  Garment garment;
+  std::unique_ptr<Simulator> simulator;
+  ClothState state;
+  StepStats stats;
+};
+
+TEST(Simulator, ClothOnAnInclineSticksBelowTheFrictionAngle) {
+  const double mu = 0.4;
+  Incline scene(std::atan(mu) - 0.02, mu);
+  const Points start = scene.state.x;
+  ASSERT_TRUE(scene.Run(60));
+  EXPECT_LT((scene.state.x - start).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(Simulator, ClothOnAnInclineSlidesAboveIt) {
+  const double mu = 0.3, angle = 0.6;
+  Incline scene(angle, mu);
+  ASSERT_TRUE(scene.Run(30));
+  const double expected =
+      kGravity * (std::sin(angle) - mu * std::cos(angle)) * 30 * kFrame;
+  const double speed = scene.state.v.rowwise().mean().norm();
+  EXPECT_NEAR(speed, expected, 0.01 * expected);
+}
+
+TEST(Simulator, ContactForcesCarryTheWeightAtRest) {
+  Incline scene(0, 0.3);
+  ASSERT_TRUE(scene.Run(30));
+  const double weight = kGravity * scene.simulator->mass().sum();
+  const Vector3d force = scene.simulator->contact_force().rowwise().sum();
+  EXPECT_NEAR(force.y(), weight, 1e-6 * weight);
+  EXPECT_LT(std::hypot(force.x(), force.z()), 1e-6 * weight);
+  // The body feels the reaction.
+  const Vector3d reaction = scene.simulator->BodyForce().rowwise().sum();
+  EXPECT_LT((force + reaction).norm(), 1e-9 * weight);
+}
+
+TEST(Simulator, RestsForTwoThousandStepsWithoutCreep) {
+  Incline scene(0.2, 0.5);
+  ASSERT_TRUE(scene.Run(10));
+  const Points start = scene.state.x;
+  ASSERT_TRUE(scene.Run(500));  // four sub-steps each
+  EXPECT_LT((scene.state.x - start).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(Simulator, EnergyDoesNotGrowWithoutInput) {
+  const Garment garment = Square(8, 0.3, 0.0);
+  SimulatorSetup setup = ClothSetup(garment, Icosphere(0.1, 1));
+  setup.body_faces.resize(3, 0);
+  for (int corner : {0, 8})
+    setup.pins.push_back({corner, garment.placed.col(corner)});
+  Simulator simulator(std::move(setup));
+  ClothState state = AtRest(garment);
+  StepStats stats;
+  double energy =
+      simulator.PotentialEnergy(state) + simulator.KineticEnergy(state);
+  const double scale = kGravity * simulator.mass().sum() * 0.3;
+  for (int frame = 0; frame < 500; ++frame) {
+    ASSERT_TRUE(simulator.Advance({}, {}, kFrame, &state, &stats));
+    const double now =
+        simulator.PotentialEnergy(state) + simulator.KineticEnergy(state);
+    ASSERT_LT(now, energy + 1e-3 * scale) << "frame " << frame;
+    energy = std::min(energy, now);
+  }
+  for (int corner : {0, 8})
+    EXPECT_LT((state.x.col(corner) - garment.placed.col(corner)).norm(), 1e-9);
+}
+
+TEST(Simulator, LeadsAStartInsideTheBodyOut) {
+  const TriangleMesh ball = Icosphere(0.12, 3);
+  const Garment garment = Square(10, 0.3, 0.1);  // 2 cm inside at the pole
+  Simulator simulator(ClothSetup(garment, ball));
+  ClothState state = AtRest(garment);
+  EXPECT_GT(simulator.FindInside(ball.vertices, state), 0);
+  StepStats stats;
+  for (int frame = 0; frame < 30; ++frame)
+    ASSERT_TRUE(simulator.Advance(
+        ball.vertices, ball.vertices, kFrame, &state, &stats));
+  EXPECT_EQ(stats.missed, 0);
+  EXPECT_EQ(simulator.FindInside(ball.vertices, state), 0);
+}
+
+TEST(Simulator, RepeatsExactly) {
+  const TriangleMesh ball = Icosphere(0.12, 3);
+  const Garment garment = Square(10, 0.3, 0.13);
+  Points end[2];
+  for (Points& x : end) {
+    Simulator simulator(ClothSetup(garment, ball));
+    ClothState state = AtRest(garment);
+    StepStats stats;
+    for (int frame = 0; frame < 10; ++frame)
+      ASSERT_TRUE(simulator.Advance(
+          ball.vertices, ball.vertices, kFrame, &state, &stats));
+    x = state.x;
+  }
+  EXPECT_EQ(end[0], end[1]);
+}
+
+TEST(Simulator, AFailureLeavesTheStateAlone) {
+  const Garment garment = Square(4, 0.3, 0.5);
+  SimulatorSetup setup = ClothSetup(garment, Icosphere(0.1, 2));
+  Simulator simulator(std::move(setup));
+  ClothState state = AtRest(garment);
+  state.v(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  const Points before = state.x;
+  StepStats stats;
+  const Points body = Icosphere(0.1, 2).vertices;
+  EXPECT_FALSE(simulator.Advance(body, body, kFrame, &state, &stats));
+  EXPECT_EQ(state.x, before);
+  EXPECT_GT(stats.failed, 0);
+}
+
+// The paper's toy (fig. 5): cloth falls on a cube whose tilt is the only
+// unknown; the loss compares with cloth fallen on an upright cube.
+class CubeToy : public testing::Test {
+ protected:
+  static constexpr int kFrames = 20;
+  CubeToy() : cube_(Slab(0.1, 0.2)), garment_(Square(9, 0.34, 0.004)) {
+    SimulatorSetup setup = ClothSetup(garment_, cube_);
+    setup.contact.friction = 0.3;
+    setup.step.substeps = 2;
+    setup.step.friction.tolerance = 1e-9;
+    simulator_ = std::make_unique<Simulator>(std::move(setup));
+    double unused;
+    target_ = Fall(0, &unused, nullptr);
+  }
+  Points Cube(double tilt) const {
+    return Exp(tilt * Vector3d::UnitZ()) * cube_.vertices;
+  }
+  // Falls on the cube, which turns from upright to `tilt` within the first
+  // frames; returns the cloth and d(cloth)/d(tilt) through the whole history.
+  Points Fall(double tilt, double* loss, double* gradient) {
+    ClothState state = AtRest(garment_);
+    const int n = 3 * garment_.num_vertices();
+    StateColumns d{Columns::Zero(n, 1), Columns::Zero(n, 1)};
+    Sensitivity sensitivity(*simulator_);
+    const auto angle = [&](int f) { return tilt * std::min(1.0, f / 5.0); };
+    for (int f = 0; f < kFrames; ++f) {
+      FrameRecord record;
+      StepStats stats;
+      EXPECT_TRUE(simulator_->Advance(
+          Cube(angle(f)), Cube(angle(f + 1)), kFrame, &state, &stats, &record));
+      if (!gradient) continue;
+      const std::vector<int> vertices =
+          Sensitivity::BodyVertices(cube_.faces, record);
+      Columns body[2];
+      for (int end : {0, 1}) {
+        body[end].resize(3 * vertices.size(), 1);
+        const double share = std::min(1.0, (f + end) / 5.0);
+        const Points rate =
+            share * Cross(Vector3d::UnitZ()) * Cube(angle(f + end));
+        for (size_t k = 0; k < vertices.size(); ++k)
+          body[end].col(0).segment<3>(3 * k) = rate.col(vertices[k]);
+      }
+      StateColumns next;
+      EXPECT_TRUE(
+          sensitivity.Forward(record, vertices, body[0], body[1], &d, &next));
+      d = next;
+    }
+    if (target_.size() > 0) {
+      const VectorXd r = Stacked(state.x) - Stacked(target_);
+      *loss = 0.5 * r.squaredNorm();
+      if (gradient) *gradient = r.dot(d.x.col(0));
+    }
+    return state.x;
+  }
+  TriangleMesh cube_;
+  Garment garment_;
+  std::unique_ptr<Simulator> simulator_;
+  Points target_;
+};
+
+TEST_F(CubeToy, TiltDerivativeMatchesDifferences) {
+  double loss, gradient, plus, minus;
+  const double tilt = 0.12;
+  Fall(tilt, &loss, &gradient);
+  double best = 1e9;
+  for (double h : {1e-5, 1e-6, 1e-7}) {
+    Fall(tilt + h, &plus, nullptr);
+    Fall(tilt - h, &minus, nullptr);
+    const double numeric = (plus - minus) / (2 * h);
+    best = std::min(best, std::abs(numeric - gradient) / std::abs(numeric));
+  }
+  EXPECT_LT(best, 1e-3);
+}
+
+TEST_F(CubeToy, PlainDescentFindsTheUprightCube) {
+  double tilt = 0.15, loss, gradient;
+  Fall(tilt, &loss, &gradient);
+  double step = 0.05 / std::abs(gradient);
+  for (int k = 0; k < 40 && std::abs(tilt) > 0.1 * M_PI / 180; ++k) {
+    double trial_loss, trial_gradient;
+    const double trial = tilt - step * gradient;
+    Fall(trial, &trial_loss, &trial_gradient);
+    if (trial_loss < loss) {
+      tilt = trial;
+      loss = trial_loss;
+      gradient = trial_gradient;
+      step *= 1.5;
+    } else {
+      step *= 0.3;
+    }
+  }
+  EXPECT_LT(std::abs(tilt) * 180 / M_PI, 0.1);
+}
+
+}  // namespace
+}  // namespace invsim

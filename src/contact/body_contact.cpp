@@ -252,17 +252,4 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
   }
 }
 
-BodyContactDetector::Penetration BodyContactDetector::MeasurePenetration(
-    const Points& body, const Points& x, double threshold) {
-  Impl& s = *impl_;
-  s.surface.Update(body);
-  Penetration result;
-  for (const SurfacePoint& p : s.surface.NearestAll(x)) {
-    const double depth = -p.signed_distance;
-    result.deepest = std::max(result.deepest, depth);
-    if (depth > threshold) ++result.count;
-  }
-  return result;
-}
-
 }  // namespace invsim

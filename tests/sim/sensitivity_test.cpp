@@ -88,33 +88,6 @@ class SensitivityTest : public testing::TestWithParam<Case> {
     return j;
   }
 
-  // Whether two frames have the same contacts in the same modes.
-  static bool SameSet(const FrameRecord& a, const FrameRecord& b) {
-    if (a.substeps.size() != b.substeps.size()) return false;
-    for (size_t s = 0; s < a.substeps.size(); ++s) {
-      const SubstepRecord &x = a.substeps[s], &y = b.substeps[s];
-      if (x.sources.size() != y.sources.size()) return false;
-      for (size_t k = 0; k < x.sources.size(); ++k) {
-        if (x.sources[k].vertex != y.sources[k].vertex ||
-            x.sources[k].face != y.sources[k].face ||
-            x.sources[k].feature != y.sources[k].feature ||
-            Mode(x, k) != Mode(y, k))
-          return false;
-      }
-    }
-    return true;
-  }
-  static ContactMode Mode(const SubstepRecord& s, size_t k) {
-    const Contact& c = s.contacts[k];
-    const LinearizationRecord& lin = s.linearizations.back();
-    const Vector3d u = c.Gather(lin.v) - c.velocity;
-    if (!c.exact())
-      return DifferentiateCompliantForce(c.normal, c.friction, c.compliance, u)
-          .mode;
-    return LinearizeAlartCurnier(c.normal, c.friction, 1, lin.forces[k], u)
-        .mode;
-  }
-
   static constexpr double kFrame = 1 / 60.0;
   TriangleMesh sphere_;
   Garment garment_;
@@ -144,7 +117,7 @@ TEST_P(SensitivityTest, ForwardMatchesDifferencesWhileSetsStay) {
         const Parameters dp = order * h * Parameters::Unit(k);
         ASSERT_TRUE(Run(p_ + dp, &rp, &plus, &stats));
         ASSERT_TRUE(Run(p_ - dp, &rm, &minus, &stats));
-        same = same && SameSet(record_, rp) && SameSet(record_, rm);
+        same = same && SameContacts(record_, rp) && SameContacts(record_, rm);
         difference[order - 1] =
             (Stacked(plus.x) - Stacked(minus.x)) / (2 * order * h);
       }
@@ -207,7 +180,7 @@ TEST_P(SensitivityTest, StartOfFrameMatchesDifferences) {
   };
   double best = 1e9;
   // Small steps: nearly slack triangles pass between tension and compression,
-  // where the frozen stiffness has a kink that SameSet does not see.
+  // where the frozen stiffness has a kink that SameContacts does not see.
   for (double h : {1e-7, 1e-8, 1e-9, 1e-10}) {
     VectorXd difference[2];
     bool same = true;
@@ -215,7 +188,8 @@ TEST_P(SensitivityTest, StartOfFrameMatchesDifferences) {
       FrameRecord plus, minus;
       difference[order - 1] =
           (run(order * h, &plus) - run(-order * h, &minus)) / (2 * order * h);
-      same = same && SameSet(record_, plus) && SameSet(record_, minus);
+      same =
+          same && SameContacts(record_, plus) && SameContacts(record_, minus);
     }
     const VectorXd numeric = (4 * difference[0] - difference[1]) / 3;
     const double error = (d.x.col(0) - numeric).norm() / numeric.norm();

@@ -105,16 +105,6 @@ class BodyContactDetector {
               std::vector<Contact>* contacts,
               std::vector<BodyContact>* sources);
 
-  // Deepest point of x inside the body (m, 0 if none), at the given position
-  // of the body, and the number of vertices deeper than `threshold`.
-  struct Penetration {
-    double deepest = 0;
-    int count = 0;
-  };
-  Penetration MeasurePenetration(const Points& body,
-                                 const Points& x,
-                                 double threshold = 0);
-
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -43,6 +43,10 @@ struct FrameRecord {
   std::vector<SubstepRecord> substeps;
 };
 
+// Whether two runs of a frame met the same contacts (vertex, face, feature) in
+// the same modes, so that they lie on one smooth piece of the scheme.
+bool SameContacts(const FrameRecord& a, const FrameRecord& b);
+
 }  // namespace invsim
 
 #endif  // INVSIM_SIM_FRAME_RECORD_H_

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/sim/frame_record.h"
+
+#include "invsim/contact/coulomb.h"
+
+namespace invsim {
+namespace {
+
+ContactMode Mode(const SubstepRecord& sub, size_t k) {
+  const Contact& c = sub.contacts[k];
+  const LinearizationRecord& lin = sub.linearizations.back();
+  const Vector3d u = c.Gather(lin.v) - c.velocity;
+  if (!c.exact())
+    return DifferentiateCompliantForce(c.normal, c.friction, c.compliance, u)
+        .mode;
+  const double rho = lin.a.diagonal(c.vertex[0]).trace() / 3;
+  return LinearizeAlartCurnier(c.normal, c.friction, rho, lin.forces[k], u)
+      .mode;
+}
+
+}  // namespace
+
+bool SameContacts(const FrameRecord& a, const FrameRecord& b) {
+  if (a.substeps.size() != b.substeps.size()) return false;
+  for (size_t s = 0; s < a.substeps.size(); ++s) {
+    const SubstepRecord &x = a.substeps[s], &y = b.substeps[s];
+    if (x.sources.size() != y.sources.size()) return false;
+    for (size_t k = 0; k < x.sources.size(); ++k) {
+      const BodyContact &p = x.sources[k], &q = y.sources[k];
+      if (p.vertex != q.vertex || p.face != q.face || p.feature != q.feature ||
+          Mode(x, k) != Mode(y, k))
+        return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace invsim

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/study/gradient_check.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/sphere_scene.h"
+#include "sim/test_scene.h"
+
+namespace invsim {
+namespace {
+
+class GradientCheckTest : public testing::Test {
+ protected:
+  GradientCheckTest() : body_(BallBody()) {
+    garment_ = Square(8, 0.3, kBallRadius + 0.01);
+    SimulatorSetup setup =
+        ClothSetup(garment_, {body_.Vertices({}), body_.faces()});
+    setup.step.substeps = 2;
+    setup.step.friction.tolerance = 1e-11;
+    simulator_ = std::make_unique<Simulator>(std::move(setup));
+    state_ = AtRest(garment_);
+    const Points rest = body_.Vertices({});
+    StepStats stats;
+    for (int frame = 0; frame < 10; ++frame)
+      EXPECT_TRUE(simulator_->Advance(rest, rest, 1 / 60.0, &state_, &stats));
+    p_.translation << 0.003, 0.002, -0.001;
+    p_.pose[2] = 0.02;
+  }
+  BodyModel body_;
+  Garment garment_;
+  std::unique_ptr<Simulator> simulator_;
+  ClothState state_;
+  BodyParameters p_;
+};
+
+TEST_F(GradientCheckTest, FindsTheDerivativeRight) {
+  const GradientCheck check = CheckFrameGradient(
+      {}, body_, body_.Vertices({}), p_, 1 / 60.0, state_, simulator_.get());
+  // The ball has one shape direction, a root rotation and a translation.
+  EXPECT_EQ(check.columns.size(), 7u);
+  EXPECT_EQ(check.still, kNumBodyParameters - 7);
+  EXPECT_LE(check.switched, 2);
+  EXPECT_LT(check.worst, 1e-6);
+  EXPECT_EQ(check.median_error.size(), check.steps.size());
+}
+
+TEST_F(GradientCheckTest, CountsColumnsWhoseContactsSwitch) {
+  GradientCheckOptions options;
+  options.steps = {0.02};  // contacts come and go
+  const GradientCheck check = CheckFrameGradient(options,
+                                                 body_,
+                                                 body_.Vertices({}),
+                                                 p_,
+                                                 1 / 60.0,
+                                                 state_,
+                                                 simulator_.get());
+  EXPECT_GE(check.switched, 4);
+  EXPECT_GT(check.worst_switched, check.worst);
+}
+
+}  // namespace
+}  // namespace invsim

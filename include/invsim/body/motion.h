@@ -66,9 +66,11 @@ BodyParameters Interpolate(const BodyParameters& a,
 Motion Resample(const Motion& motion, double frame_rate);
 
 // Replaces each joint's vector by that of the same rotation nearest to the
-// frame before: a smooth rotation that passes half a turn wraps to the other
-// side as a vector in most recordings, and differences of vectors, as of
-// L_t, would see a jump.
+// frame before. Recordings keep vectors within half a turn, where a smooth
+// rotation that goes further wraps to the other side, and differences of
+// vectors, as in L_t, see a jump. What remains is a turn that passes near a
+// whole one about a tilting axis (a dancer's root): differences of rotations
+// (GeodesicDistance) are safe always.
 void UnwrapPoses(Motion* motion);
 
 }  // namespace invsim

@@ -49,7 +49,9 @@ Matrix3d Slerp(const Matrix3d& a, const Matrix3d& b, double s);
 
 // Among the vectors of the same rotation as v, v (1 + 2 pi k / |v|), the one
 // nearest to `reference`. A smooth rotation whose vectors wrap around becomes
-// a smooth path of vectors if each frame refers to the one before.
+// a smooth path of vectors if each frame refers to the one before, unless it
+// passes near a whole turn: there the axis may swing round within a frame, and
+// no choice of vectors is smooth.
 Vector3d NearestEquivalent(const Vector3d& v, const Vector3d& reference);
 
 }  // namespace invsim

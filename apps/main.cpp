@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// The invsim command: a list of subcommands.
+
+#include "command.h"
+#include "dispatcher.h"
+
+int main(int argc, char** argv) {
+  std::vector<std::unique_ptr<invsim::Command>> commands;
+  commands.push_back(invsim::MakeInspectCommand());
+  return invsim::Dispatch(commands, argc, argv);
+}

@@ -10,8 +10,12 @@
 namespace invsim {
 
 void BenchIo(Bench* bench);
+void BenchStep(Bench* bench);
 
-inline void RunAllBenchmarks(Bench* bench) { BenchIo(bench); }
+inline void RunAllBenchmarks(Bench* bench) {
+  BenchIo(bench);
+  BenchStep(bench);
+}
 
 }  // namespace invsim
 

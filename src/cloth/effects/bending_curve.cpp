@@ -39,7 +39,7 @@ std::array<double, 5> MeasuredNodes(const MeasuredBending& fabric,
 
 BendingCurve::Value BendingCurve::At(double bend) const {
   const double at = std::abs(bend) * per_radian_;
-  if (at >= 4.0) return {nodes_[4], 0.0};
+  if (!(at < 4.0)) return {nodes_[4], 0.0};  // also if not a number
   const int lower = static_cast<int>(at);
   const double rise = nodes_[lower + 1] - nodes_[lower];
   return {nodes_[lower] + (at - lower) * rise,

@@ -20,6 +20,7 @@ TEST(BendingCurve, InterpolatesTheNodes) {
   EXPECT_DOUBLE_EQ(curve.At(0.75).slope, -4.0);
   EXPECT_DOUBLE_EQ(curve.At(-0.75).slope, 4.0);
   EXPECT_DOUBLE_EQ(curve.At(9.0).slope, 0.0);
+  EXPECT_DOUBLE_EQ(curve.At(std::nan("")).stiffness, 4.0);
 }
 
 TEST(BendingCurve, EnergyIsTheIntegralOfTheMoment) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <numbers>
+#include <algorithm>
 
 #include "../test_cloth.h"
 #include "invsim/cloth/effects/gravity.h"
@@ -86,6 +86,69 @@ TEST(Bending, RestAnglesComeFromThePlacedShapeIfAsked) {
   EXPECT_EQ(EnergyOf(shaped, garment.placed), 0.0);
   const Points zero = Points::Zero(3, garment.num_vertices());
   EXPECT_LE(ForceOf(shaped, {garment.placed, zero}).norm(), 1e-15);
+}
+
+TEST(Bending, RestAnglesEnterForceAndTangent) {
+  Garment garment = Sheet(3, 2, 0.02, 0.2);
+  garment.placed = Rolled(garment.rest, 40.0, 0.3);
+  garment.rest_angles_from_placed = true;
+  Bending bending(garment, ExampleBendingTable());
+  const auto pattern = BindAlone(&bending, garment.num_vertices());
+  const Points x = 1.02 * garment.placed + RandomPoints(12, 2e-3, 3);
+  const MatrixXd slope = Jacobian(
+      [&](const Points& p) {
+        return VectorXd::Constant(1, EnergyOf(bending, p));
+      },
+      x,
+      1e-6);
+  const VectorXd force = Stacked(ForceOf(bending, {x, x}));
+  EXPECT_LE((slope.transpose() + force).norm(), 1e-7 * force.norm());
+  BlockMatrix h(pattern);
+  h.SetZero();
+  const Points zero = Points::Zero(3, 12);
+  bending.AddTangent({x, zero}, zero, zero, 1.0, &h, &h);
+  const MatrixXd expected = Jacobian(
+      [&](const Points& p) -> VectorXd {
+        return -Stacked(ForceOf(bending, {p, zero}));
+      },
+      x,
+      1e-7);
+  EXPECT_LE((Dense(h) - expected).norm(), 1e-7 * expected.norm());
+}
+
+// A sheet cut in two whose panels lie apart and turned in the pattern: sewn
+// together again an isotropic sheet does not feel it, a measured one sees the
+// direction of either side.
+TEST(Bending, SeamsAreHinges) {
+  const Garment whole = Sheet(2, 1, 0.02);
+  Garment cut = whole;
+  cut.rest.resize(2, 8);
+  // Left panel: vertices 0, 1, 3, 4 as they were. Right panel: 1, 2, 4, 5
+  // turned by a right angle.
+  const int left[4] = {0, 1, 3, 4}, right[4] = {1, 2, 4, 5};
+  for (int i = 0; i < 4; ++i) {
+    cut.rest.col(i) = whole.rest.col(left[i]);
+    const Vector2d p = whole.rest.col(right[i]);
+    cut.rest.col(4 + i) = Vector2d(1.0 - p.y(), p.x());
+  }
+  for (int f = 0; f < whole.num_faces(); ++f)
+    for (int c = 0; c < 3; ++c) {
+      const int* panel = f < 2 ? left : right;
+      const int v = whole.faces(c, f);
+      cut.rest_faces(c, f) =
+          (f < 2 ? 0 : 4) +
+          static_cast<int>(std::find(panel, panel + 4, v) - panel);
+    }
+  const Points x = Rolled(whole.rest, 10.0, 0.0);
+  const IsotropicBending isotropic{kRigidity};
+  EXPECT_NEAR(EnergyOf(Bending(cut, isotropic), x),
+              EnergyOf(Bending(whole, isotropic), x),
+              1e-15);
+  MeasuredBending fabric{};
+  fabric.table[0].fill(1e-5);  // edges along axis 1, as the seam on the right
+  fabric.table[2].fill(4e-5);  // along axis 2, as the seam on the left
+  const double stiff = EnergyOf(Bending(whole, fabric), x);
+  EXPECT_NEAR(EnergyOf(Bending(cut, fabric), x), stiff / 4.0, 1e-3 * stiff);
 }
 
 // Heights at rest under `load` (N/m^2) of a strip along x whose vertices up to

@@ -11,6 +11,7 @@
 
 #include "invsim/io/npy.h"
 #include "invsim/io/zip.h"
+#include "invsim/io/zip_writer.h"
 
 namespace invsim {
 

@@ -2,10 +2,10 @@
 #ifndef INVSIM_IO_ZIP_H_
 #define INVSIM_IO_ZIP_H_
 
-// Zip archives, as much as an npz needs (PKWARE APPNOTE 6.3): members stored or
-// deflated, 64-bit sizes and offsets, no encryption, one file, no folders made.
-// Sizes come from the central directory and are believed only as far as the
-// bytes at hand can bear them out; every member's CRC-32 is checked.
+// Reading zip archives, as much as an npz needs (PKWARE APPNOTE 6.3): members
+// stored or deflated, 64-bit sizes and offsets, no encryption, one file. Sizes
+// come from the central directory and are believed only as far as the bytes at
+// hand can bear them out; every member's CRC-32 is checked.
 
 #include <cstdint>
 #include <string>
@@ -43,24 +43,6 @@ class ZipArchive {
   std::string name_;
   std::vector<Entry> entries_;
 };
-
-struct ZipMember {
-  std::string name;
-  std::string bytes;
-};
-
-struct ZipOptions {
-  // Stored members are larger but can be mapped into memory by others.
-  bool deflate = true;
-  // 64-bit records are written where a size or offset needs them; this writes
-  // them everywhere.
-  bool always_zip64 = false;
-};
-
-// The bytes of an archive of the members, in their order. No dates are
-// written, so that equal members give equal bytes.
-std::string BuildZip(const std::vector<ZipMember>& members,
-                     const ZipOptions& options = {});
 
 }  // namespace invsim
 

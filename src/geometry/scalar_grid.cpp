@@ -137,6 +137,28 @@ ScalarGrid::ScalarGrid(const Vector3d& low, const Vector3d& high, double cell)
   value_.assign(static_cast<size_t>(size_[0]) * size_[1] * size_[2], 0.0);
 }
 
+void ScalarGrid::Fill(const std::function<double(const Vector3d&)>& f,
+                      double band) {
+  constexpr int kBlock = 6;
+  constexpr double kSlope = 1.2;
+  const double reach = kSlope * cell_ * std::sqrt(3.0) * 0.5 * kBlock + band;
+  std::array<int, 3> blocks;
+  for (int c = 0; c < 3; ++c) blocks[c] = (size_[c] + kBlock - 1) / kBlock;
+  tbb::parallel_for(0, blocks[0] * blocks[1] * blocks[2], [&](int b) {
+    const int first[3] = {kBlock * (b % blocks[0]),
+                          kBlock * (b / blocks[0] % blocks[1]),
+                          kBlock * (b / (blocks[0] * blocks[1]))};
+    const Vector3d middle = Position(first[0], first[1], first[2]) +
+                            Vector3d::Constant(0.5 * (kBlock - 1) * cell_);
+    const double there = f(middle);
+    const bool far = std::abs(there) > reach;
+    for (int k = first[2]; k < std::min(first[2] + kBlock, size_[2]); ++k)
+      for (int j = first[1]; j < std::min(first[1] + kBlock, size_[1]); ++j)
+        for (int i = first[0]; i < std::min(first[0] + kBlock, size_[0]); ++i)
+          value_[Node(i, j, k)] = far ? there : f(Position(i, j, k));
+  });
+}
+
 double ScalarGrid::Sample(const Vector3d& x) const {
   int node[3];
   double t[3];

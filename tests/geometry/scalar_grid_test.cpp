@@ -38,6 +38,23 @@ TEST(ScalarGrid, SamplesLinearFieldsExactly) {
   EXPECT_EQ(grid.Sample(Vector3d(-9, 0, 0)), grid.Sample(Vector3d(-1.3, 0, 0)));
 }
 
+TEST(ScalarGrid, FillsExactlyNearZeroAndTheSignElsewhere) {
+  const auto ball = [](const Vector3d& x) { return x.norm() - 0.8; };
+  const ScalarGrid all = Fill(0.04, ball);
+  ScalarGrid grid(Vector3d(-1.3, -1.25, -1.2), Vector3d(1.3, 1.25, 1.2), 0.04);
+  ASSERT_EQ(grid.num_nodes(), all.num_nodes());
+  grid.Fill(ball, 0.1);
+  int exact = 0;
+  for (int n = 0; n < grid.num_nodes(); ++n) {
+    EXPECT_EQ(grid.value(n) < 0.0, all.value(n) < 0.0);
+    if (std::abs(all.value(n)) < 0.1) {
+      EXPECT_EQ(grid.value(n), all.value(n));
+    }
+    exact += grid.value(n) == all.value(n) ? 1 : 0;
+  }
+  EXPECT_LT(exact, grid.num_nodes() / 2);
+}
+
 TEST(ScalarGrid, SphereSurfaceIsClosedOutwardAndInPlace) {
   const double cell = 0.1;
   const TriangleMesh m =

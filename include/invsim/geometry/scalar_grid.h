@@ -7,6 +7,7 @@
 // the minimum, an offset is a difference.
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "invsim/base/types.h"
@@ -34,6 +35,13 @@ class ScalarGrid {
   }
   double& value(int node) { return value_[node]; }
   double value(int node) const { return value_[node]; }
+
+  // Samples f, threaded, where it is within `band` of zero at least; elsewhere
+  // only its sign is right. f must not change faster than distance does, up to
+  // a fifth more: blocks of nodes whose middle is too far from zero for the
+  // band to reach them are filled with the value there. f is called from
+  // several threads at once.
+  void Fill(const std::function<double(const Vector3d&)>& f, double band);
 
   // Trilinear interpolation; outside the box that of the nearest point of it.
   double Sample(const Vector3d& x) const;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_FIT_BODY_INIT_H_
+#define INVSIM_FIT_BODY_INIT_H_
+
+// A first body for every frame from points alone, no cloth simulated (the
+// paper's section 3.5, eq. 7).
+//
+//   1. Anchors. In a few frames, far apart, the body is started at the points'
+//      centroid in several headings and arm poses, fitted coarse to fine (few
+//      points, wide loss, trunk and limbs before hands and feet), and the best
+//      start kept. The best anchor is where tracking begins.
+//   2. Tracking. Frame by frame outwards from it, each started from its
+//      neighbour; a frame much worse than those before is also started
+//      afresh.
+//   3. Together. All frames with one shape and smoothness in time.
+//   4. A Gaussian filter in time, on rotations.
+//
+// The garment says which skin is hidden (fit/body_points_term.h).
+
+#include <functional>
+#include <string>
+
+#include "invsim/cloth/garment.h"
+#include "invsim/fit/body_points_term.h"
+#include "invsim/fit/optimizer.h"
+
+namespace invsim {
+
+struct BodyInitOptions {
+  BodyPointsOptions points;
+  PriorOptions priors;
+  int anchors = 3;
+  int headings = 8;
+  int coarse_points = 600;  // per frame, while searching and tracking
+  int fine_points = 2500;   // per frame, in the end
+  int iterations = 25;      // of the last stage
+  double filter = 1;        // standard deviation, frames
+};
+void Describe(OptionTable* table, BodyInitOptions* options);
+
+struct BodyInit {
+  BodySequence body;
+  int anchor = 0;                   // the frame tracking began with
+  std::vector<double> frame_costs;  // of the last stage
+  OptimizerSummary refinement;      // of the last stage
+};
+
+// `clouds`: one per frame, metres, none empty. `note` is told what is going
+// on, and may answer false to stop early. Throws InputError if there is no
+// frame, or if points and body cannot be of one size (wrong unit).
+using InitObserver = std::function<bool(const std::string& what)>;
+BodyInit InitializeBody(const BodyModel& body,
+                        const Garment& garment,
+                        const std::vector<Points>& clouds,
+                        const BodyInitOptions& options,
+                        std::uint64_t seed,
+                        const InitObserver& note);
+
+}  // namespace invsim
+
+#endif  // INVSIM_FIT_BODY_INIT_H_

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_FIT_CLOTH_POINTS_TERM_H_
+#define INVSIM_FIT_CLOTH_POINTS_TERM_H_
+
+// The distance between measured points and a simulated clothed body: the data
+// part of the paper's objective (eq. 5). At every point of the search the
+// whole sequence is simulated once.
+//
+//   cloth -> points    L_c: each cloth vertex to its nearest point
+//   skin -> points     L_b: each bare body vertex to its nearest point; bare =
+//                      its normal does not meet the simulated cloth
+//   points -> surface  each point to the nearest of cloth and bare skin
+//
+// Each distance has a robust loss of its own. Costs are in units of
+// information: all points of a frame together weigh as `observations`
+// independent measurements of standard deviation `noise`.
+//
+// The cloth at frame 0 is led from a reference, cloth at rest on a reference
+// body (sim/relaxation.h), by moving that body to the wanted one in
+// `lead_frames` and holding it for `hold_frames` with damped cloth.
+//
+// Which part of the cloth's past its derivative knows is `History`; what is
+// left out is left out of derivatives only, never of the cost.
+
+#include <memory>
+#include <vector>
+
+#include "invsim/body/body_model.h"
+#include "invsim/fit/data_term.h"
+#include "invsim/fit/loss.h"
+#include "invsim/sim/simulator.h"
+
+namespace invsim {
+
+enum class History {
+  // The paper's: d(cloth_t) is by the body at t alone, cloth_{t-1} held.
+  kOneFrame,
+  // d(cloth_t) by parameters that moved alike in all frames up to t: exact for
+  // the shape, and for pose and translation the answer to a lasting change
+  // instead of one of a single frame.
+  kCarried
+};
+
+struct ClothPointsOptions {
+  double noise = 0.01;         // m
+  double observations = 1000;  // per frame
+  LossOptions loss{"cauchy", 0.03};
+  double cloth_to_points = 0.3;
+  double skin_to_points = 0.3;
+  double points_to_surface = 1;
+  int lead_frames = 4;
+  int hold_frames = 4;
+  History history = History::kOneFrame;
+};
+void Describe(OptionTable* table, ClothPointsOptions* options);
+
+// Where the cloth of the first frame comes from.
+struct ClothReference {
+  Points body;       // 3 x V
+  ClothState cloth;  // at rest on it
+};
+
+struct ClothPointsStats {
+  StepStats step;  // over all evaluations
+  long frames = 0;
+  double simulation_seconds = 0;
+  double neighbour_seconds = 0;
+  double sensitivity_seconds = 0;
+  double block_seconds = 0;  // residuals and their compression
+};
+
+class ClothPointsTerm : public DataTerm {
+ public:
+  ClothPointsTerm(const BodyModel& body,
+                  Simulator* simulator,
+                  const Faces& cloth_faces,
+                  const VectorXd& cloth_areas,
+                  const std::vector<Points>& clouds,
+                  double frames_per_second,
+                  const ClothReference& reference,
+                  const ClothPointsOptions& options);
+  ~ClothPointsTerm() override;
+
+  int num_frames() const override;
+  // Gives up when InterruptRequested().
+  Evaluation Evaluate(const BodySequence& x,
+                      double cost_limit,
+                      std::vector<double>* costs) override;
+  bool Linearize(std::vector<FrameBlock>* blocks) override;
+
+  // The cloth of every frame at the point evaluated last.
+  const std::vector<ClothState>& cloth() const;
+  // From now on frame 0 is led from the point evaluated last.
+  void MoveReference();
+  const ClothPointsStats& stats() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace invsim
+
+#endif  // INVSIM_FIT_CLOTH_POINTS_TERM_H_

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_FIT_OPTIMIZER_H_
+#define INVSIM_FIT_OPTIMIZER_H_
+
+// Optimisers of an Objective, behind one interface and with one summary:
+//
+//   lm                Ceres's Levenberg-Marquardt
+//   dogleg            Ceres's subspace dogleg
+//   lbfgs             Ceres's limited-memory BFGS with Wolfe line search
+//   gradient_descent  the paper's: x <- x - step * gradient, with a fixed
+//                     step or one found by backtracking (Armijo)
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "invsim/base/registry.h"
+#include "invsim/fit/objective.h"
+
+namespace invsim {
+
+enum class Termination {
+  kConverged,       // a tolerance was met
+  kIterationLimit,  // usable, not converged
+  kTimeLimit,       // likewise
+  kInterrupted,     // a stop was asked for
+  kStalled,         // the last steps failed to evaluate: at the border of what
+                    // can be simulated
+  kFailed           // the start cannot be evaluated, or nothing was gained
+};
+const char* Name(Termination termination);
+
+struct IterationRecord {
+  int iteration = 0;
+  double cost = 0;  // of the point kept
+  bool successful = true;
+  double gradient_norm = 0;  // largest component
+  double step_norm = 0;
+  double seconds = 0;  // since the start
+  ObjectiveCounts counts;
+  CostTerms terms;  // filled for successful iterations
+};
+
+struct OptimizerSummary {
+  Termination termination = Termination::kFailed;
+  std::string reason;  // one sentence
+  double initial_cost = 0;
+  double final_cost = 0;
+  double seconds = 0;
+  ObjectiveCounts counts;
+  std::vector<IterationRecord> iterations;
+  std::string details;  // the solver's own full report, or empty
+
+  bool usable() const { return termination != Termination::kFailed; }
+};
+
+// Called after every iteration. A false answer asks to stop.
+using IterationObserver = std::function<bool(const IterationRecord&)>;
+
+class Optimizer {
+ public:
+  virtual ~Optimizer() = default;
+  // Changes objective->x() to the best point found.
+  virtual OptimizerSummary Run(Objective* objective,
+                               const IterationObserver& observer) const = 0;
+};
+
+struct CeresOptions {
+  int iterations = 30;
+  double function_tolerance = 1e-4;   // |change of cost| / cost
+  double parameter_tolerance = 1e-8;  // |step| / |x|
+  double gradient_tolerance = 1e-10;  // largest component
+  double radius = 1e4;                // first trust region
+  double time_limit = 0;              // seconds; 0: none
+};
+void Describe(OptionTable* table, CeresOptions* options);
+
+struct GradientDescentOptions {
+  int iterations = 300;
+  // Paper: one small fixed step. Backtracking starts from it, doubles it after
+  // a step taken at once and halves it until the cost falls enough.
+  double step = 1e-7;
+  bool backtracking = true;
+  double function_tolerance = 1e-6;
+  double time_limit = 0;  // seconds; 0: none
+};
+void Describe(OptionTable* table, GradientDescentOptions* options);
+
+std::unique_ptr<Optimizer> MakeLevenbergMarquardt(const CeresOptions& options);
+std::unique_ptr<Optimizer> MakeDogleg(const CeresOptions& options);
+std::unique_ptr<Optimizer> MakeLbfgs(const CeresOptions& options);
+std::unique_ptr<Optimizer> MakeGradientDescent(
+    const GradientDescentOptions& options);
+
+using OptimizerRegistry = Registry<Optimizer>;
+const OptimizerRegistry& Optimizers();
+
+}  // namespace invsim
+
+#endif  // INVSIM_FIT_OPTIMIZER_H_

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <ceres/iteration_callback.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <limits>
+
+#include "invsim/base/stopwatch.h"
+#include "invsim/fit/optimizer.h"
+
+namespace invsim {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+// Few frames: the Jacobian is small and dense.
+constexpr int kDenseFrames = 2;
+
+// Keeps the record of iterations, tells the objective which cost a trial has
+// to beat, and passes on the wish to stop.
+class Recorder : public ceres::IterationCallback {
+ public:
+  Recorder(Objective* objective,
+           const IterationObserver* observer,
+           bool monotone)
+      : objective_(objective), observer_(observer), monotone_(monotone) {}
+
+  ceres::CallbackReturnType operator()(
+      const ceres::IterationSummary& summary) override {
+    IterationRecord record;
+    record.iteration = summary.iteration;
+    record.successful = summary.step_is_successful || summary.iteration == 0;
+    // Of an unsuccessful step Ceres gives the trial's cost.
+    if (record.successful) cost_ = summary.cost;
+    record.cost = cost_;
+    record.gradient_norm = summary.gradient_max_norm;
+    record.step_norm = summary.step_norm;
+    record.seconds = watch_.seconds();
+    record.counts = objective_->counts();
+    if (record.successful) terms_ = objective_->terms();
+    record.terms = terms_;
+    if (record.successful) failed_at_success_ = record.counts.failed;
+    records.push_back(record);
+    if (monotone_) objective_->SetCostLimit(cost_);
+    if (!*observer_ || (*observer_)(record)) return ceres::SOLVER_CONTINUE;
+    stopped = true;
+    return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+  // Failed evaluations up to the last successful step.
+  int failed_at_success() const { return failed_at_success_; }
+
+  std::vector<IterationRecord> records;
+  bool stopped = false;
+
+ private:
+  Objective* objective_;
+  const IterationObserver* observer_;
+  bool monotone_;
+  Stopwatch watch_;
+  double cost_ = kNoLimit;
+  CostTerms terms_;
+  int failed_at_success_ = 0;
+};
+
+Termination Classify(const ceres::Solver::Summary& summary,
+                     const Objective& objective,
+                     const Recorder& recorder,
+                     double time_limit) {
+  const bool started = !recorder.records.empty();
+  if (started && recorder.stopped) return Termination::kInterrupted;
+  // Ceres calls it convergence, or in a line search failure, when no step can
+  // be evaluated any more.
+  if (started && objective.counts().failed > recorder.failed_at_success())
+    return Termination::kStalled;
+  if (!summary.IsSolutionUsable()) return Termination::kFailed;
+  if (summary.termination_type == ceres::CONVERGENCE)
+    return Termination::kConverged;
+  return time_limit > 0 && summary.total_time_in_seconds >= time_limit
+             ? Termination::kTimeLimit
+             : Termination::kIterationLimit;
+}
+
+class CeresOptimizer : public Optimizer {
+ public:
+  CeresOptimizer(const CeresOptions& options, ceres::Solver::Options solver)
+      : options_(options), solver_(std::move(solver)) {
+    solver_.max_num_iterations = options.iterations;
+    solver_.function_tolerance = options.function_tolerance;
+    solver_.parameter_tolerance = options.parameter_tolerance;
+    solver_.gradient_tolerance = options.gradient_tolerance;
+    solver_.initial_trust_region_radius = options.radius;
+    if (options.time_limit > 0)
+      solver_.max_solver_time_in_seconds = options.time_limit;
+    solver_.logging_type = ceres::SILENT;
+    solver_.num_threads = 1;
+  }
+
+  OptimizerSummary Run(Objective* objective,
+                       const IterationObserver& observer) const override {
+    const Stopwatch watch;
+    ceres::Solver::Options solver = solver_;
+    const bool monotone = solver.minimizer_type == ceres::TRUST_REGION;
+    solver.linear_solver_type = objective->x()->num_frames() <= kDenseFrames
+                                    ? ceres::DENSE_QR
+                                    : ceres::SPARSE_NORMAL_CHOLESKY;
+    Recorder recorder(objective, &observer, monotone);
+    solver.callbacks.push_back(&recorder);
+    objective->SetCostLimit(kNoLimit);
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, objective->problem(), &summary);
+    objective->SetCostLimit(kNoLimit);
+
+    OptimizerSummary result;
+    result.termination =
+        Classify(summary, *objective, recorder, options_.time_limit);
+    result.reason = summary.message;
+    result.initial_cost = summary.initial_cost;
+    result.final_cost = summary.final_cost;
+    result.seconds = watch.seconds();
+    result.counts = objective->counts();
+    result.iterations = std::move(recorder.records);
+    result.details = summary.FullReport();
+    return result;
+  }
+
+ private:
+  CeresOptions options_;
+  ceres::Solver::Options solver_;
+};
+
+}  // namespace
+
+void Describe(OptionTable* table, CeresOptions* o) {
+  table->Add(
+      "iterations", &o->iterations, {.doc = "most iterations", .at_least = 0});
+  table->Add(
+      "function_tolerance",
+      &o->function_tolerance,
+      {.doc = "done when the cost changes by less, relative", .at_least = 0});
+  table->Add("parameter_tolerance",
+             &o->parameter_tolerance,
+             {.doc = "done when the step is smaller, relative", .at_least = 0});
+  table->Add(
+      "gradient_tolerance",
+      &o->gradient_tolerance,
+      {.doc = "done when no gradient component is larger", .at_least = 0});
+  table->Add(
+      "radius", &o->radius, {.doc = "first trust region radius", .above = 0});
+  table->Add(
+      "time_limit",
+      &o->time_limit,
+      {.doc = "stop after this time; 0: never", .unit = "s", .at_least = 0});
+}
+
+std::unique_ptr<Optimizer> MakeLevenbergMarquardt(const CeresOptions& options) {
+  ceres::Solver::Options solver;
+  return std::make_unique<CeresOptimizer>(options, solver);
+}
+
+std::unique_ptr<Optimizer> MakeDogleg(const CeresOptions& options) {
+  ceres::Solver::Options solver;
+  solver.trust_region_strategy_type = ceres::DOGLEG;
+  solver.dogleg_type = ceres::SUBSPACE_DOGLEG;
+  return std::make_unique<CeresOptimizer>(options, solver);
+}
+
+std::unique_ptr<Optimizer> MakeLbfgs(const CeresOptions& options) {
+  ceres::Solver::Options solver;
+  solver.minimizer_type = ceres::LINE_SEARCH;
+  solver.line_search_direction_type = ceres::LBFGS;
+  return std::make_unique<CeresOptimizer>(options, solver);
+}
+
+}  // namespace invsim

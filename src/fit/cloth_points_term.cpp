@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/cloth_points_term.h"
+
+#include <ceres/loss_function.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "invsim/base/interrupt.h"
+#include "invsim/base/stopwatch.h"
+#include "invsim/base/threads.h"
+#include "invsim/fit/coverage.h"
+#include "invsim/geometry/kd_tree.h"
+#include "invsim/geometry/mesh.h"
+#include "invsim/geometry/surface_index.h"
+#include "invsim/sim/sensitivity.h"
+
+namespace invsim {
+namespace {
+
+// Share of its velocity the cloth keeps per frame while frame 0 is held.
+constexpr double kKeptVelocity = 0.7;
+constexpr double kOnSurface = 1e-9;  // m
+
+enum class Side { kCloth, kSkin };
+
+// A vertex and the point it belongs to.
+struct VertexResidual {
+  Side side;
+  int vertex;
+  Vector3d offset;
+  double weight;
+};
+
+// A point's distance to a face along `direction` (from face to point).
+struct PointResidual {
+  Side side;
+  double distance;
+  Vector3d direction;
+  std::array<int, 3> vertices;
+  Vector3d weights;
+  double weight;
+};
+
+struct FrameState {
+  std::shared_ptr<const PosedBody> body;
+  std::vector<VertexResidual> vertices;
+  std::vector<PointResidual> points;
+};
+
+VectorXd VertexShares(const Points& vertices, const Faces& faces) {
+  const VectorXd areas = FaceAreas(vertices, faces);
+  VectorXd share = VectorXd::Zero(vertices.cols());
+  for (int f = 0; f < areas.size(); ++f)
+    for (int k = 0; k < 3; ++k) share[faces(k, f)] += areas[f] / 3;
+  return share / share.sum();
+}
+
+PointResidual ToFace(Side side,
+                     const Vector3d& p,
+                     const SurfacePoint& q,
+                     const Faces& faces,
+                     double weight) {
+  PointResidual r;
+  r.side = side;
+  r.distance = q.distance;
+  r.direction =
+      q.distance > kOnSurface ? Vector3d((p - q.point) / q.distance) : q.normal;
+  for (int k = 0; k < 3; ++k) r.vertices[k] = faces(k, q.face);
+  r.weights = q.weights;
+  r.weight = weight;
+  return r;
+}
+
+}  // namespace
+
+struct ClothPointsTerm::Impl {
+  Impl(const BodyModel& model, Simulator* sim, const Faces& faces);
+  bool Simulate(const BodySequence& x, int t);
+  bool Lead(const Points& body);
+  void FindResiduals(int t);
+  double Total(int t) const { return Block(t, nullptr, nullptr).cost; }
+  FrameBlock Block(int t, const MatrixXd* skin, const Columns* cloth) const;
+  bool BlockOneFrame(int t, Sensitivity* sensitivity, FrameBlock* block);
+  bool Carry(const FrameRecord& record,
+             const PosedBody* before,
+             const PosedBody& after,
+             StateColumns* columns);
+  bool LinearizeCarried(std::vector<FrameBlock>* blocks);
+  bool LinearizeOneFrame(std::vector<FrameBlock>* blocks);
+
+  const BodyModel& body;
+  Simulator* simulator;
+  Faces cloth_faces;
+  VectorXd cloth_share, body_share;
+  std::vector<KdTree> trees;
+  double dt = 1.0 / 30;
+  ClothReference reference;
+  ClothPointsOptions options;
+  std::shared_ptr<const ceres::LossFunction> loss;
+  std::unique_ptr<SurfaceIndex> body_index, cloth_index;
+  std::vector<int> every_vertex;
+
+  std::vector<FrameState> frames;
+  std::vector<ClothState> cloth;
+  // records[t] ends at frame t; lead_records come before.
+  std::vector<FrameRecord> records, lead_records;
+  ClothPointsStats stats;
+};
+
+ClothPointsTerm::Impl::Impl(const BodyModel& model,
+                            Simulator* sim,
+                            const Faces& faces)
+    : body(model), simulator(sim), cloth_faces(faces) {
+  body_share = VertexShares(model.data().v_template, model.faces());
+  every_vertex.resize(model.num_vertices());
+  std::iota(every_vertex.begin(), every_vertex.end(), 0);
+}
+
+// From the reference to frame 0. The body's way is straight; it is short.
+bool ClothPointsTerm::Impl::Lead(const Points& target) {
+  ClothState state = reference.cloth;
+  const int moves = std::max(1, options.lead_frames);
+  const int all = moves + options.hold_frames;
+  lead_records.resize(all);
+  Points before = reference.body;
+  for (int k = 1; k <= all; ++k) {
+    const double s = std::min(1.0, static_cast<double>(k) / moves);
+    const Points after = (1 - s) * reference.body + s * target;
+    if (!simulator->Advance(
+            before, after, dt, &state, &stats.step, &lead_records[k - 1]))
+      return false;
+    state.v *= k > moves ? kKeptVelocity : 1.0;
+    before = after;
+    ++stats.frames;
+  }
+  state.v.setZero();
+  cloth[0] = state;
+  return true;
+}
+
+bool ClothPointsTerm::Impl::Simulate(const BodySequence& x, int t) {
+  const Stopwatch watch;
+  frames[t].body = body.Pose(x.Frame(t));
+  const Points& after = frames[t].body->vertices();
+  bool good = true;
+  if (t == 0) {
+    simulator->FindInside(reference.body, reference.cloth);
+    good = Lead(after);
+  } else {
+    const Points& before = frames[t - 1].body->vertices();
+    simulator->FindInside(before, cloth[t - 1]);
+    cloth[t] = cloth[t - 1];
+    good = simulator->Advance(
+        before, after, dt, &cloth[t], &stats.step, &records[t]);
+    ++stats.frames;
+  }
+  stats.simulation_seconds += watch.seconds();
+  return good;
+}
+
+void ClothPointsTerm::Impl::FindResiduals(int t) {
+  const Stopwatch watch;
+  FrameState& frame = frames[t];
+  const Points& skin = frame.body->vertices();
+  const Points& garment = cloth[t].x;
+  body_index->Update(skin);
+  cloth_index->Update(garment);
+  const std::vector<bool> covered =
+      CoveredVertices(skin, VertexNormals(skin, body.faces()), *cloth_index);
+  const double unit = options.observations / (options.noise * options.noise);
+  const KdTree& tree = trees[t];
+
+  frame.vertices.clear();
+  const auto add_vertices =
+      [&](Side side, const Points& from, const VectorXd& share, double weight) {
+        if (!(weight > 0)) return;
+        const std::vector<Neighbour> nearest = tree.NearestAll(from);
+        for (int i = 0; i < from.cols(); ++i) {
+          if (side == Side::kSkin && covered[i]) continue;
+          frame.vertices.push_back(
+              {side,
+               i,
+               from.col(i) - tree.points().col(nearest[i].index),
+               unit * weight * share[i]});
+        }
+      };
+  add_vertices(Side::kCloth, garment, cloth_share, options.cloth_to_points);
+  add_vertices(Side::kSkin, skin, body_share, options.skin_to_points);
+
+  frame.points.clear();
+  const Points& points = tree.points();
+  const double weight = unit * options.points_to_surface / points.cols();
+  if (weight > 0) {
+    const std::vector<SurfacePoint> on_cloth = cloth_index->NearestAll(points);
+    const std::vector<SurfacePoint> on_skin = body_index->NearestAll(points);
+    for (int i = 0; i < points.cols(); ++i) {
+      bool bare = true;
+      for (int k = 0; k < 3; ++k)
+        bare = bare && !covered[body.faces()(k, on_skin[i].face)];
+      const bool skin_is_nearer =
+          bare && on_skin[i].distance < on_cloth[i].distance;
+      frame.points.push_back(skin_is_nearer ? ToFace(Side::kSkin,
+                                                     points.col(i),
+                                                     on_skin[i],
+                                                     body.faces(),
+                                                     weight)
+                                            : ToFace(Side::kCloth,
+                                                     points.col(i),
+                                                     on_cloth[i],
+                                                     cloth_faces,
+                                                     weight));
+    }
+  }
+  stats.neighbour_seconds += watch.seconds();
+}
+
+// Without derivatives if `skin` is null; else the Jacobians of all body and
+// cloth vertices, three rows each.
+FrameBlock ClothPointsTerm::Impl::Block(int t,
+                                        const MatrixXd* skin,
+                                        const Columns* garment) const {
+  const FrameState& frame = frames[t];
+  const bool derivatives = skin != nullptr;
+  BlockCompressor sum(kNumBodyParameters, derivatives);
+  MatrixXd j;
+  for (const VertexResidual& v : frame.vertices) {
+    if (derivatives) {
+      if (v.side == Side::kSkin)
+        j = skin->middleRows<3>(3 * v.vertex);
+      else
+        j = garment->middleRows<3>(3 * v.vertex);
+    }
+    sum.Add(v.offset, j, v.weight, loss.get());
+  }
+  j.resize(0, 0);
+  VectorXd distance(1);
+  for (const PointResidual& p : frame.points) {
+    distance[0] = p.distance;
+    if (derivatives) {
+      j.setZero(1, kNumBodyParameters);
+      for (int k = 0; k < 3; ++k) {
+        const int row = 3 * p.vertices[k];
+        const Eigen::RowVector3d d = -p.weights[k] * p.direction.transpose();
+        if (p.side == Side::kSkin)
+          j += d * skin->middleRows<3>(row);
+        else
+          j += d * garment->middleRows<3>(row);
+      }
+    }
+    sum.Add(distance, j, p.weight, loss.get());
+  }
+  return sum.Finish();
+}
+
+bool ClothPointsTerm::Impl::BlockOneFrame(int t,
+                                          Sensitivity* sensitivity,
+                                          FrameBlock* block) {
+  const FrameRecord& record = t == 0 ? lead_records.back() : records[t];
+  const std::vector<int> touched =
+      Sensitivity::BodyVertices(body.faces(), record);
+  const MatrixXd skin = frames[t].body->Jacobian(every_vertex);
+  Columns body1(3 * touched.size(), kNumBodyParameters);
+  for (size_t k = 0; k < touched.size(); ++k)
+    body1.middleRows<3>(3 * k) = skin.middleRows<3>(3 * touched[k]);
+  StateColumns end;
+  if (!sensitivity->Forward(record, touched, Columns(), body1, nullptr, &end))
+    return false;
+  *block = Block(t, &skin, &end.x);
+  return true;
+}
+
+bool ClothPointsTerm::Impl::LinearizeOneFrame(std::vector<FrameBlock>* blocks) {
+  const int n = static_cast<int>(frames.size());
+  std::atomic<bool> good = true;
+  // One sensitivity object for a run of frames: its analysis is reused.
+  const int grain =
+      std::max(1, (n + 2 * NumThreads() - 1) / (2 * NumThreads()));
+  ParallelForPieces(n, grain, [&](int begin, int end) {
+    Sensitivity sensitivity(*simulator);
+    for (int t = begin; t < end && good; ++t)
+      if (!BlockOneFrame(t, &sensitivity, &(*blocks)[t])) good = false;
+  });
+  return good;
+}
+
+// columns <- d(state at the end)/d(parameters) given that at the start.
+// `before` null: the body's start does not depend on the parameters.
+bool ClothPointsTerm::Impl::Carry(const FrameRecord& record,
+                                  const PosedBody* before,
+                                  const PosedBody& after,
+                                  StateColumns* columns) {
+  Sensitivity sensitivity(*simulator);
+  const std::vector<int> touched =
+      Sensitivity::BodyVertices(body.faces(), record);
+  const Columns body0 = before ? Columns(before->Jacobian(touched)) : Columns();
+  const Columns body1 = after.Jacobian(touched);
+  StateColumns end;
+  if (!sensitivity.Forward(record,
+                           touched,
+                           body0,
+                           body1,
+                           columns->x.size() ? columns : nullptr,
+                           &end))
+    return false;
+  *columns = std::move(end);
+  return true;
+}
+
+bool ClothPointsTerm::Impl::LinearizeCarried(std::vector<FrameBlock>* blocks) {
+  const int n = static_cast<int>(frames.size());
+  StateColumns columns;
+  // While held the body already is that of frame 0.
+  const PosedBody* before = nullptr;
+  for (size_t k = std::max(1, options.lead_frames) - 1; k < lead_records.size();
+       ++k) {
+    if (!Carry(lead_records[k], before, *frames[0].body, &columns))
+      return false;
+    before = frames[0].body.get();
+    if (static_cast<int>(k) >= options.lead_frames) columns.v *= kKeptVelocity;
+  }
+  columns.v.setZero();
+  for (int t = 0; t < n; ++t) {
+    if (t > 0 &&
+        !Carry(records[t], frames[t - 1].body.get(), *frames[t].body, &columns))
+      return false;
+    const MatrixXd skin = frames[t].body->Jacobian(every_vertex);
+    (*blocks)[t] = Block(t, &skin, &columns.x);
+  }
+  return true;
+}
+
+ClothPointsTerm::ClothPointsTerm(const BodyModel& body,
+                                 Simulator* simulator,
+                                 const Faces& cloth_faces,
+                                 const VectorXd& cloth_areas,
+                                 const std::vector<Points>& clouds,
+                                 double frames_per_second,
+                                 const ClothReference& reference,
+                                 const ClothPointsOptions& options)
+    : impl_(std::make_unique<Impl>(body, simulator, cloth_faces)) {
+  impl_->cloth_share = cloth_areas / cloth_areas.sum();
+  for (const Points& cloud : clouds) impl_->trees.emplace_back(cloud);
+  impl_->dt = 1 / frames_per_second;
+  impl_->reference = reference;
+  impl_->options = options;
+  impl_->loss = MakeLoss(options.loss);
+  impl_->body_index =
+      std::make_unique<SurfaceIndex>(reference.body, body.faces());
+  impl_->cloth_index =
+      std::make_unique<SurfaceIndex>(reference.cloth.x, cloth_faces);
+  impl_->frames.resize(clouds.size());
+  impl_->cloth.resize(clouds.size());
+  impl_->records.resize(clouds.size());
+}
+
+ClothPointsTerm::~ClothPointsTerm() = default;
+
+int ClothPointsTerm::num_frames() const {
+  return static_cast<int>(impl_->frames.size());
+}
+
+Evaluation ClothPointsTerm::Evaluate(const BodySequence& x,
+                                     double cost_limit,
+                                     std::vector<double>* costs) {
+  costs->assign(num_frames(), 0);
+  double total = 0;
+  for (int t = 0; t < num_frames(); ++t) {
+    if (InterruptRequested()) return Evaluation::kAbandoned;
+    if (!impl_->Simulate(x, t)) return Evaluation::kFailed;
+    impl_->FindResiduals(t);
+    total += (*costs)[t] = impl_->Total(t);
+    if (!std::isfinite(total)) return Evaluation::kFailed;
+    if (total > cost_limit) return Evaluation::kAbandoned;
+  }
+  return Evaluation::kDone;
+}
+
+bool ClothPointsTerm::Linearize(std::vector<FrameBlock>* blocks) {
+  const Stopwatch watch;
+  blocks->resize(num_frames());
+  const bool good = impl_->options.history == History::kOneFrame
+                        ? impl_->LinearizeOneFrame(blocks)
+                        : impl_->LinearizeCarried(blocks);
+  impl_->stats.sensitivity_seconds += watch.seconds();
+  return good;
+}
+
+const std::vector<ClothState>& ClothPointsTerm::cloth() const {
+  return impl_->cloth;
+}
+
+void ClothPointsTerm::MoveReference() {
+  impl_->reference.body = impl_->frames[0].body->vertices();
+  impl_->reference.cloth = impl_->cloth[0];
+}
+
+const ClothPointsStats& ClothPointsTerm::stats() const { return impl_->stats; }
+
+void Describe(OptionTable* table, ClothPointsOptions* o) {
+  table->Add("noise",
+             &o->noise,
+             {.doc = "standard deviation of one observation",
+              .unit = "m",
+              .above = 0});
+  table->Add("observations",
+             &o->observations,
+             {.doc = "independent observations a frame's points stand for",
+              .above = 0});
+  Describe(table, &o->loss);
+  table->Add("cloth_to_points",
+             &o->cloth_to_points,
+             {.doc = "weight of cloth vertices' distances", .at_least = 0});
+  table->Add("skin_to_points",
+             &o->skin_to_points,
+             {.doc = "weight of bare body vertices' distances", .at_least = 0});
+  table->Add("points_to_surface",
+             &o->points_to_surface,
+             {.doc = "weight of the points' distances", .at_least = 0});
+  table->Add(
+      "lead_frames",
+      &o->lead_frames,
+      {.doc = "frames in which the first body is reached", .at_least = 1});
+  table->Add("hold_frames",
+             &o->hold_frames,
+             {.doc = "frames it is then held", .at_least = 0});
+  table->Add(
+      "history",
+      &o->history,
+      {{"one_frame", History::kOneFrame}, {"carried", History::kCarried}},
+      {.doc = "how much of the cloth's past its derivative knows"});
+}
+
+}  // namespace invsim

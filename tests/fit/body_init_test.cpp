@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/body_init.h"
+
+#include <gtest/gtest.h>
+
+#include "dressed_mannequin.h"
+#include "invsim/body/rotation.h"
+
+namespace invsim {
+namespace {
+
+// Walks through the room with lowered arms, facing away from +z.
+BodyParameters TruthAt(int t) {
+  BodyParameters p;
+  p.shape[0] = 1;
+  p.shape[1] = -1;
+  const double swing = 0.1 * t;
+  p.pose.head<3>() = Vector3d(0, 2.4 + 0.02 * t, 0);
+  p.pose[3 * 1] = -0.2 + swing;      // left hip
+  p.pose[3 * 2] = 0.2 - swing;       // right hip
+  p.pose[3 * 4] = 0.5;               // left knee
+  p.pose[3 * 16 + 2] = -1.1;         // left shoulder
+  p.pose[3 * 17 + 2] = 1.0 - swing;  // right shoulder
+  p.pose[3 * 18 + 1] = -0.6;         // left elbow
+  p.translation = Vector3d(2, 0.8, -3 + 0.03 * t);
+  return p;
+}
+
+double MeanVertexError(const BodyModel& body,
+                       const BodyParameters& a,
+                       const BodyParameters& b) {
+  return (body.Vertices(a) - body.Vertices(b)).colwise().norm().mean();
+}
+
+class Init : public ::testing::Test {
+ protected:
+  static constexpr int kFrames = 4;
+
+  Init() : person_(0.02), garment_(person_.MakeGarment()) {
+    options_.anchors = 1;
+    options_.headings = 6;
+    options_.fine_points = 1500;
+    options_.filter = 0;
+    for (int t = 0; t < kFrames; ++t)
+      clouds_.push_back(person_.Scan(TruthAt(t), 3000, t));
+  }
+
+  BodyInit Run() {
+    return InitializeBody(person_.body(), garment_, clouds_, options_, 1, {});
+  }
+
+  DressedMannequin person_;
+  Garment garment_;
+  std::vector<Points> clouds_;
+  BodyInitOptions options_;
+};
+
+TEST_F(Init, FindsABodyItWasNotToldTheHeadingOf) {
+  const BodyInit init = Run();
+  ASSERT_EQ(init.body.num_frames(), kFrames);
+  for (int t = 0; t < kFrames; ++t)
+    EXPECT_LT(MeanVertexError(person_.body(), init.body.Frame(t), TruthAt(t)),
+              0.015)
+        << "frame " << t;
+  // The garment is 2 cm off the trunk; the body under it is not.
+  BodyParameters found{init.body.shape, PoseVector::Zero(), Vector3d::Zero()};
+  BodyParameters truth{TruthAt(0).shape, PoseVector::Zero(), Vector3d::Zero()};
+  EXPECT_LT(MeanVertexError(person_.body(), found, truth), 0.012);
+}
+
+TEST_F(Init, IsTheSameForTheSameSeed) {
+  clouds_.resize(1);
+  options_.headings = 1;
+  options_.iterations = 3;
+  const BodyInit a = Run(), b = Run();
+  EXPECT_EQ(a.body.shape, b.body.shape);
+  EXPECT_EQ(a.body.poses[0], b.body.poses[0]);
+}
+
+TEST_F(Init, RefusesAWrongUnitAndNoFrames) {
+  for (Points& cloud : clouds_) cloud *= 1000;  // millimetres
+  try {
+    Run();
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("unit"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("frame 0"), std::string::npos);
+  }
+  clouds_.clear();
+  EXPECT_THROW(Run(), InputError);
+}
+
+TEST_F(Init, RefusesAnEmptyFrame) {
+  clouds_[2].resize(3, 0);
+  EXPECT_THROW(Run(), InputError);
+}
+
+TEST_F(Init, StopsWhenAsked) {
+  int calls = 0;
+  InitializeBody(
+      person_.body(), garment_, clouds_, options_, 1, [&](const std::string&) {
+        return ++calls < 1;
+      });
+  EXPECT_LE(calls, 3);
+}
+
+}  // namespace
+}  // namespace invsim

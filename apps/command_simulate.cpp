@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// invsim simulate: a garment on a moving body, and the forces in it.
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "command.h"
+#include "inputs.h"
+#include "invsim/base/error.h"
+#include "invsim/base/interrupt.h"
+#include "invsim/base/logging.h"
+#include "invsim/base/progress.h"
+#include "invsim/base/stopwatch.h"
+#include "invsim/base/threads.h"
+#include "invsim/cloth/named_materials.h"
+#include "invsim/report/run_folder.h"
+#include "invsim/report/simulation_writer.h"
+#include "invsim/sim/relaxation.h"
+#include "invsim/sim/scene.h"
+
+namespace invsim {
+namespace {
+
+constexpr char kDefaultOut[] = "invsim_simulate";
+
+struct InputOptions {
+  std::string body = "mannequin";
+  std::string garment = "tshirt";
+  AuthoredGarmentOptions authored;
+  MotionInput motion;
+};
+
+void Describe(OptionTable* table, InputOptions* o) {
+  table->Add("body",
+             &o->body,
+             {.doc = "mannequin, or the path of an SMPL-layout npz"});
+  table->Add("garment",
+             &o->garment,
+             {.doc = "an authored garment or the path of an OBJ placed around "
+                     "the T-posed body"});
+  Describe(table, &o->authored);
+  Describe(table, &o->motion);
+}
+
+// What is simulated, as loaded.
+struct Scene {
+  BodyModel body;
+  Garment garment;
+  Motion motion;
+  Material material;
+  std::vector<BodyParameters> frames;
+};
+
+Scene LoadScene(const InputOptions& input, const std::string& material) {
+  BodyModel body = LoadBody(input.body);
+  Garment garment = LoadGarment(input.garment, body, input.authored);
+  CheckGarmentFits(garment, body, ShapeVector::Zero(), input.garment);
+  Motion motion = LoadMotion(input.motion, body);
+  std::vector<BodyParameters> frames;
+  for (int t = 0; t < motion.num_frames(); ++t)
+    frames.push_back(motion.Frame(t));
+  return {std::move(body),
+          std::move(garment),
+          std::move(motion),
+          FindMaterial(material),
+          std::move(frames)};
+}
+
+std::string Note(const FrameStats& stats) {
+  std::string note = std::to_string(stats.step.most_contacts) + " contacts";
+  if (stats.step.missed > 0)
+    note += ", " + std::to_string(stats.step.missed) + " steps missed";
+  return note;
+}
+
+class SimulateCommand : public Command {
+ public:
+  std::string name() const override { return "simulate"; }
+  std::string doc() const override {
+    return "a garment on a moving body, with forces, strain and stress";
+  }
+  void AddArguments(CLI::App* app, KeyFlags* flags) override;
+  void AddOptions(OptionTable* table) override;
+  ExitCode Run(const CommandContext& context) override;
+
+ private:
+  SimulationReport StartReport(const Scene& scene,
+                            const Simulator& simulator) const;
+  void Simulate(const Scene& scene,
+                const CommandContext& context,
+                Simulator* simulator,
+                SimulationWriter* writer,
+                SimulationReport* report) const;
+
+  InputOptions input_;
+  SceneOptions scene_;
+  RelaxationOptions relaxation_;
+  SimulationWriterOptions output_;
+  bool force_ = false;
+};
+
+void SimulateCommand::AddArguments(CLI::App* app, KeyFlags* flags) {
+  flags->Add("--body", "input.body", "mannequin or an SMPL-layout npz");
+  flags->Add("--motion", "input.motion", "embedded or an AMASS npz");
+  flags->Add("--garment", "input.garment", "authored or an OBJ");
+  flags->Add("--material", "scene.material", "named or an ARCSim json");
+  flags->Add("--fps", "input.frames_per_second", "frames per second");
+  flags->Add("--frames", "input.frames", "at most so many; 0: all");
+  flags->Add("--friction", "contact.friction", "of the cloth on the body");
+  flags->Add("--substeps", "step.substeps", "steps per frame");
+  app->add_flag("--force", force_, "replace an earlier run in DIR");
+}
+
+void SimulateCommand::AddOptions(OptionTable* table) {
+  table->AddSection("input", &input_);
+  Describe(table, &scene_);
+  table->AddSection("relaxation", &relaxation_);
+  table->AddSection("output", &output_);
+}
+
+SimulationReport SimulateCommand::StartReport(const Scene& scene,
+                                           const Simulator& simulator) const {
+  SimulationReport report;
+  report.body = input_.body;
+  report.motion = input_.motion.name;
+  report.garment = input_.garment;
+  report.material = scene_.material;
+  report.body_vertices = scene.body.num_vertices();
+  report.body_faces = static_cast<int>(scene.body.faces().cols());
+  report.cloth_vertices = scene.garment.num_vertices();
+  report.cloth_faces = scene.garment.num_faces();
+  report.frames_wanted = scene.motion.num_frames();
+  report.frames_per_second = scene.motion.frame_rate;
+  report.threads = NumThreads();
+  report.cloth_mass = simulator.mass().sum();
+  report.thickness = scene_.contact.thickness;
+  report.friction = scene_.contact.friction;
+  report.tolerance = scene_.step.friction.tolerance;
+  report.effects = scene_.effects;
+  return report;
+}
+
+void SimulateCommand::Simulate(const Scene& scene,
+                               const CommandContext& context,
+                               Simulator* simulator,
+                               SimulationWriter* writer,
+                               SimulationReport* report) const {
+  std::ostream* log = context.verbosity < 0 ? nullptr : &std::cerr;
+  const ProgressStyle style = StyleFor(STDERR_FILENO);
+  std::unique_ptr<Progress> dressing;
+  report->relaxation =
+      Relax({scene.body, scene.garment, scene.frames, scene.motion.frame_rate},
+            relaxation_,
+            simulator,
+            [&](const RelaxationFrame& f) {
+              if (!dressing)
+                dressing = std::make_unique<Progress>(
+                    log, style, "dressing", f.most_frames);
+              dressing->Advance(std::string(PhaseName(f.phase)) + ", " +
+                                Note(f.stats));
+            });
+  dressing.reset();
+  if (report->relaxation.status != RunStatus::kComplete) return;
+  Progress frames(log, style, "frames", report->frames_wanted);
+  ClothState cloth = report->relaxation.cloth;
+  report->sequence = SimulateSequence(
+      simulator,
+      [&](int t) { return scene.body.Vertices(scene.frames[t]); },
+      report->frames_wanted,
+      report->frames_per_second,
+      &cloth,
+      [&](const SimulatedFrame& f) {
+        writer->AddFrame(f);
+        frames.Advance(Note(f.stats));
+      });
+}
+
+ExitCode SimulateCommand::Run(const CommandContext& context) {
+  const Stopwatch watch;
+  const InterruptGuard interrupt;
+  const Scene scene = LoadScene(input_, scene_.material);
+  UseMaterialFriction(*context.options, scene.material, &scene_);
+  Simulator simulator(
+      MakeSetup(scene_, scene.body, scene.garment, scene.material));
+  const RunFolder folder(context.out.empty() ? kDefaultOut : context.out,
+                         force_);
+  folder.Write("config.resolved.toml", ResolvedToml(*context.options));
+  WriteMotion(folder.File("body.npz"), scene.motion);
+  SimulationReport report = StartReport(scene, simulator);
+  SimulationWriter writer(folder,
+                          scene.garment,
+                          scene.material,
+                          scene.body.faces(),
+                          report.frames_wanted,
+                          report.frames_per_second,
+                          output_);
+  Simulate(scene, context, &simulator, &writer, &report);
+  report.seconds = watch.seconds();
+  writer.Finish(&report);
+
+  if (MissedSteps(report) > 0)
+    LOG(WARNING) << MissedSteps(report)
+                 << " steps missed the contact tolerance; see "
+                 << folder.File("report.json");
+  if (report.relaxation.status == RunStatus::kComplete &&
+      !report.relaxation.at_rest)
+    LOG(WARNING) << "the cloth was not at rest when the sequence began";
+  if (context.json) {
+    std::cout << SimulationJson(report);
+  } else {
+    std::cout << Verdict(report) << "\n" << folder.path() << "\n";
+  }
+  switch (Status(report)) {
+    case RunStatus::kComplete:
+      return ExitCode::kOk;
+    case RunStatus::kInterrupted:
+      return ExitCode::kInterrupted;
+    default:
+      return ExitCode::kFailed;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Command> MakeSimulateCommand() {
+  return std::make_unique<SimulateCommand>();
+}
+
+}  // namespace invsim

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inputs.h"
+
+#include <algorithm>
+
+#include "invsim/base/error.h"
+#include "invsim/base/names.h"
+#include "invsim/body/mannequin.h"
+#include "invsim/body/motion_library.h"
+
+namespace invsim {
+namespace {
+
+constexpr char kMannequin[] = "mannequin";
+constexpr double kEmbeddedRate = 30;
+constexpr int kEmbeddedFrames = 60;
+
+[[noreturn]] void ThrowUnknown(const std::string& kind,
+                               const std::string& name,
+                               const std::vector<std::string>& names,
+                               const std::string& file) {
+  throw UsageError(UnknownName(kind, name, names) + "; or give the path of " +
+                   file);
+}
+
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Motion Embedded(const MotionInput& input) {
+  const double rate =
+      input.frames_per_second > 0 ? input.frames_per_second : kEmbeddedRate;
+  const int frames = input.frames > 0 ? input.frames : kEmbeddedFrames;
+  return MakeMotion(input.name, input.first + frames, rate);
+}
+
+Motion FromFile(const MotionInput& input, const BodyModel& body) {
+  Motion motion = ReadMotion(input.name);
+  if (input.up != UpAxis::kY) TurnWorld(YUpFrom(input.up), body, &motion);
+  if (input.frames_per_second > 0 &&
+      input.frames_per_second != motion.frame_rate)
+    motion = Resample(motion, input.frames_per_second);
+  return motion;
+}
+
+// The frames asked for of those there are.
+void Cut(const MotionInput& input, Motion* motion) {
+  const int all = motion->num_frames();
+  if (input.first >= all)
+    throw UsageError("first_frame " + std::to_string(input.first) + ": " +
+                     input.name + " has only frames 0 to " +
+                     std::to_string(all - 1));
+  const int frames = input.frames > 0
+                         ? std::min(input.frames, all - input.first)
+                         : all - input.first;
+  const auto cut = [&](auto* values) {
+    values->erase(values->begin() + input.first + frames, values->end());
+    values->erase(values->begin(), values->begin() + input.first);
+  };
+  cut(&motion->poses);
+  cut(&motion->translations);
+}
+
+}  // namespace
+
+bool IsPath(const std::string& name) {
+  return name.find_first_of("/.") != std::string::npos;
+}
+
+BodyModel LoadBody(const std::string& name) {
+  if (name == kMannequin) return Mannequin();
+  if (!IsPath(name))
+    ThrowUnknown("body", name, {kMannequin}, "an SMPL-layout .npz");
+  return ReadBodyModel(name);
+}
+
+TPoseBody TPoseOf(const BodyModel& body) {
+  return {
+      body.Vertices({}), body.faces(), body.Joints({}), body.data().weights};
+}
+
+Garment LoadGarment(const std::string& name,
+                    const BodyModel& body,
+                    const AuthoredGarmentOptions& options) {
+  if (Contains(AuthoredGarmentNames(), name))
+    return AuthoredGarment(name, TPoseOf(body), options);
+  if (!IsPath(name))
+    ThrowUnknown("garment", name, AuthoredGarmentNames(), "an .obj");
+  return ReadGarment(name);
+}
+
+void Describe(OptionTable* table, AuthoredGarmentOptions* o) {
+  table->Add("edge",
+             &o->edge_length,
+             {.doc = "edge length of an authored garment",
+              .unit = "m",
+              .at_least = 0.008,
+              .at_most = 0.08});
+  table->Add("ease",
+             &o->ease,
+             {.doc = "least distance of an authored garment from the skin",
+              .unit = "m",
+              .at_least = 0.004,
+              .at_most = 0.05});
+}
+
+void Describe(OptionTable* table, MotionInput* o) {
+  table->Add("motion",
+             &o->name,
+             {.doc = "an embedded motion or the path of an AMASS npz"});
+  table->Add("motion_up",
+             &o->up,
+             {{Name(UpAxis::kY), UpAxis::kY}, {Name(UpAxis::kZ), UpAxis::kZ}},
+             {.doc = "the axis that is up in the motion's file"});
+  table->Add("first_frame",
+             &o->first,
+             {.doc = "of the motion, at frames_per_second", .at_least = 0});
+  table->Add("frames",
+             &o->frames,
+             {.doc = "of the motion, at most; 0: all", .at_least = 0});
+  table->Add("frames_per_second",
+             &o->frames_per_second,
+             {.doc = "the motion is resampled to it; 0: as it is",
+              .unit = "1/s",
+              .at_least = 0});
+}
+
+Motion LoadMotion(const MotionInput& input, const BodyModel& body) {
+  const bool embedded = Contains(MotionNames(), input.name);
+  if (!embedded && !IsPath(input.name))
+    ThrowUnknown("motion", input.name, MotionNames(), "an AMASS .npz");
+  Motion motion = embedded ? Embedded(input) : FromFile(input, body);
+  Cut(input, &motion);
+  return motion;
+}
+
+}  // namespace invsim

@@ -79,6 +79,9 @@ class Command {
 
 // One function per command_NAME.cpp; main.cpp lists them.
 std::unique_ptr<Command> MakeInspectCommand();
+std::unique_ptr<Command> MakeListCommand();
+std::unique_ptr<Command> MakeSimulateCommand();
+std::unique_ptr<Command> MakeSynthCommand();
 
 }  // namespace invsim
 

@@ -8,5 +8,8 @@
 int main(int argc, char** argv) {
   std::vector<std::unique_ptr<invsim::Command>> commands;
   commands.push_back(invsim::MakeInspectCommand());
+  commands.push_back(invsim::MakeListCommand());
+  commands.push_back(invsim::MakeSimulateCommand());
+  commands.push_back(invsim::MakeSynthCommand());
   return invsim::Dispatch(commands, argc, argv);
 }

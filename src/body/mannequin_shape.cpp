@@ -112,7 +112,7 @@ Vector3d OnTheLeft(MannequinShape shape, const Vector3d& x) {
       return 0.10 * ArmGirth(x);
     case MannequinShape::kLegs:
       return 0.08 * LegGirth(x);
-    case MannequinShape::kHead:
+    case MannequinShape::kHeadSize:
       return Head(x);
   }
   return Vector3d::Zero();

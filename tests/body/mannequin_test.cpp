@@ -130,7 +130,7 @@ TEST_F(MannequinMeasures, ShapesDoWhatTheySay) {
   EXPECT_GT(Change(MannequinShape::kBelly, volume), 1e-3);
   EXPECT_GT(Change(MannequinShape::kArms, volume), 3e-4);
   EXPECT_GT(Change(MannequinShape::kLegs, volume), 8e-4);
-  EXPECT_GT(Change(MannequinShape::kHead, height), 4e-3);
+  EXPECT_GT(Change(MannequinShape::kHeadSize, height), 4e-3);
 }
 
 }  // namespace

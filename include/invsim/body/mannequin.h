@@ -26,7 +26,7 @@ enum class MannequinShape {
   kBelly,      // a rounder belly and waist
   kArms,       // arms 10 % thicker
   kLegs,       // legs 8 % thicker
-  kHead,       // a head 3 % larger on a neck 6 % thicker
+  kHeadSize,   // a head 3 % larger on a neck 6 % thicker
 };
 
 struct MannequinShapeInfo {

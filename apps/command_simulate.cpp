@@ -87,7 +87,7 @@ class SimulateCommand : public Command {
 
  private:
   SimulationReport StartReport(const Scene& scene,
-                            const Simulator& simulator) const;
+                               const Simulator& simulator) const;
   void Simulate(const Scene& scene,
                 const CommandContext& context,
                 Simulator* simulator,
@@ -120,8 +120,8 @@ void SimulateCommand::AddOptions(OptionTable* table) {
   table->AddSection("output", &output_);
 }
 
-SimulationReport SimulateCommand::StartReport(const Scene& scene,
-                                           const Simulator& simulator) const {
+SimulationReport SimulateCommand::StartReport(
+    const Scene& scene, const Simulator& simulator) const {
   SimulationReport report;
   report.body = input_.body;
   report.motion = input_.motion.name;

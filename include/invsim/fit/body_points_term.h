@@ -9,7 +9,10 @@
 //                   garment leaves the nearest skin bare the point lies on it:
 //                   rho(d^2). Elsewhere the point lies on cloth, and cloth is
 //                   outside: d^2 inside the body, outside only a weak pull,
-//                   so that the garment does not inflate the body.
+//                   so that the garment does not inflate the body. Between
+//                   bare and hidden vertices the two are blended; that the
+//                   blend changes as the nearest point slides over the skin is
+//                   left out of the derivative, and of nothing else.
 //   skin -> point   every bare vertex of the body to its nearest point:
 //                   rho(|m_i - p|^2), so that no limb is left in the air.
 //

@@ -15,9 +15,9 @@
 #include <memory>
 #include <vector>
 
+#include "invsim/contact/friction_jacobian.h"
 #include "invsim/sim/frame_record.h"
 #include "invsim/sim/simulator.h"
-#include "invsim/contact/friction_jacobian.h"
 
 namespace invsim {
 

@@ -33,8 +33,8 @@ struct Hinge {
   using Vertices = Eigen::Matrix<double, 3, 4>;  // x0 x1 x2 x3
   using Slope = Eigen::Matrix<double, 12, 12>;
 
-  double angle;        // radians, in [-pi, pi]
-  Vertices gradient;   // 1/m
+  double angle;       // radians, in [-pi, pi]
+  Vertices gradient;  // 1/m
 
   // The angle and its gradient. `rest_length` of the edge, m; `rest_area2`
   // and `rest_area3`: rest areas of the two faces, m^2.

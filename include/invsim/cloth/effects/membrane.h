@@ -74,8 +74,8 @@ class Membrane : public ElasticEffect {
  private:
   struct Element {
     std::array<int, 3> vertices;
-    double area;                        // m^2
-    Eigen::Matrix<double, 2, 3> d;      // column a: d_a, 1/m
+    double area;                    // m^2
+    Eigen::Matrix<double, 2, 3> d;  // column a: d_a, 1/m
   };
   enum class Part { kForceAndProduct, kProduct };
 

@@ -51,6 +51,20 @@ const char* Name(LengthUnit unit) {
 
 const char* Name(UpAxis up) { return up == UpAxis::kY ? "y" : "z"; }
 
+void Describe(OptionTable* table, InputFrame* frame) {
+  table->Add("units",
+             &frame->unit,
+             {{"m", LengthUnit::kMetre},
+              {"cm", LengthUnit::kCentimetre},
+              {"mm", LengthUnit::kMillimetre}},
+             {.doc = "unit of length of the input"});
+  table->Add("up",
+             &frame->up,
+             {{"y", UpAxis::kY}, {"z", UpAxis::kZ}},
+             {.doc = "axis that points up in the input; a body faces +z if it "
+                     "is y, -y if it is z"});
+}
+
 double MetresPer(LengthUnit unit) {
   switch (unit) {
     case LengthUnit::kMetre:

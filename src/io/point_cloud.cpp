@@ -74,6 +74,13 @@ NonFinite DropNonFinite(Points* points) {
 
 }  // namespace
 
+void Describe(OptionTable* table, PointReadOptions* o) {
+  table->Add("drop_non_finite",
+             &o->drop_non_finite,
+             {.doc = "drop points that are not finite instead of refusing the "
+                     "file"});
+}
+
 const std::vector<std::string>& PointExtensions() {
   static const std::vector<std::string> extensions = {
       "ply", "pcd", "obj", "xyz", "txt", "npy"};

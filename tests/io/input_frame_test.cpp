@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "invsim/base/error.h"
+
 namespace invsim {
 namespace {
 
@@ -36,6 +38,20 @@ TEST(InputFrameTest, NamesUnitsAndAxes) {
   EXPECT_STREQ(Name(LengthUnit::kMillimetre), "mm");
   EXPECT_STREQ(Name(UpAxis::kY), "y");
   EXPECT_STREQ(Name(UpAxis::kZ), "z");
+}
+
+TEST(InputFrameTest, IsSetByOptions) {
+  InputFrame frame;
+  OptionTable table;
+  table.AddSection("data", &frame);
+  Config config;
+  config.Assign("data.units=mm", "--set");
+  config.Assign("data.up=z", "--set");
+  table.Read(config);
+  EXPECT_EQ(frame.unit, LengthUnit::kMillimetre);
+  EXPECT_EQ(frame.up, UpAxis::kZ);
+  config.Assign("data.units=inch", "--set");
+  EXPECT_THROW(table.Read(config), UsageError);
 }
 
 TEST(InputFrameTest, GuessesEveryFrameOfAPerson) {

@@ -62,6 +62,16 @@ TEST(PointCloudTest, RefusesOrDropsNonFinitePoints) {
       ThrowsInputError("t.xyz: 1 of 1 points are not finite"));
 }
 
+TEST(PointCloudTest, DescribesItsOptions) {
+  PointReadOptions options;
+  OptionTable table;
+  table.AddSection("points", &options);
+  Config config;
+  config.Assign("points.drop_non_finite=true", "--set");
+  table.Read(config);
+  EXPECT_TRUE(options.drop_non_finite);
+}
+
 TEST(PointCloudTest, RefusesWhatIsNoCloud) {
   EXPECT_THAT([] { ParsePoints("0 0 0", "las", "t.las"); },
               ThrowsInputError("t.las: extension 'las': expected a point "

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "invsim/base/options.h"
 #include "invsim/base/types.h"
 
 namespace invsim {
@@ -27,6 +28,9 @@ struct InputFrame {
   LengthUnit unit = LengthUnit::kMetre;
   UpAxis up = UpAxis::kY;
 };
+
+// Keys units (m, cm, mm) and up (y, z).
+void Describe(OptionTable* table, InputFrame* frame);
 
 // Metres in one unit: 1, 0.01 or 0.001.
 double MetresPer(LengthUnit unit);

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "invsim/base/options.h"
 #include "invsim/base/types.h"
 
 namespace invsim {
@@ -28,6 +29,8 @@ struct PointReadOptions {
   // of refusing the file.
   bool drop_non_finite = false;
 };
+
+void Describe(OptionTable* table, PointReadOptions* options);
 
 // At least one point, all finite. Throws InputError naming the file: unknown
 // extension, no (finite) point, non-finite points with their number and the

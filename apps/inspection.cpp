@@ -10,6 +10,8 @@
 #include "invsim/base/error.h"
 #include "invsim/base/names.h"
 #include "invsim/body/body_model.h"
+#include "invsim/body/motion.h"
+#include "invsim/body/rotation.h"
 #include "invsim/cloth/garment.h"
 #include "invsim/cloth/material_file.h"
 #include "invsim/geometry/mesh.h"
@@ -86,48 +88,35 @@ Inspection InspectBodyModel(const std::string& path) {
   return result;
 }
 
-// AMASS's two names for one thing; 0 if it is not known.
-double FrameRate(const Npz& npz) {
-  for (const char* key : {"mocap_framerate", "mocap_frame_rate"}) {
-    if (!npz.Has(key)) continue;
-    const double rate = npz.Doubles(key, {})[0];
-    if (rate > 0 && std::isfinite(rate)) return rate;
+// Where the root's rotation takes the body's own up axis, on average.
+UpAxis GuessUp(const Motion& motion) {
+  Vector3d up = Vector3d::Zero();
+  for (const PoseVector& pose : motion.poses) {
+    up += Exp(pose.head<3>()) * Vector3d::UnitY();
   }
-  return 0;
+  return std::abs(up.z()) > std::abs(up.y()) ? UpAxis::kZ : UpAxis::kY;
 }
 
-Inspection InspectMotion(const Npz& npz) {
+Inspection InspectMotion(const std::string& path) {
   Inspection result{"motion"};
-  const std::vector<double> poses = npz.Doubles("poses", {-1, -1});
-  const auto frames = npz.Array("poses").shape()[0];
-  const auto width = npz.Array("poses").shape()[1];
-  result.facts["frames"] = frames;
-  result.facts["pose_numbers"] = width;
-  const double rate = FrameRate(npz);
-  if (rate == 0) {
-    result.warnings.push_back("no mocap_framerate: the frame rate is unknown");
-  } else {
-    result.facts["frames_per_second"] = rate;
-    result.facts["seconds"] = Rounded(static_cast<double>(frames) / rate);
-  }
-  const auto finite = [](const std::vector<double>& values) {
-    return std::all_of(values.begin(), values.end(), [](double v) {
-      return std::isfinite(v);
-    });
-  };
   result.problem = ProblemOf([&] {
-    const std::vector<double> trans = npz.Doubles("trans", {frames, 3});
-    if (frames == 0) throw InputError(npz.name() + ": no frame");
-    if (width < kNumPose) {
-      throw InputError(npz.name() + ": poses has " + std::to_string(width) +
-                       " numbers a frame: expected 72 or more");
+    const Motion motion = ReadMotion(path);
+    const int frames = motion.num_frames();
+    result.facts["frames"] = frames;
+    result.facts["frames_per_second"] = motion.frame_rate;
+    result.facts["seconds"] = Rounded(frames / motion.frame_rate);
+    result.facts["gender"] = Printable(motion.gender);
+    Points translations(3, frames);
+    for (int t = 0; t < frames; ++t) {
+      translations.col(t) = motion.translations[t];
     }
-    if (!finite(poses) || !finite(trans)) {
-      throw InputError(npz.name() + ": expected finite poses and trans");
+    result.facts["trans_min"] = List(translations.rowwise().minCoeff());
+    result.facts["trans_max"] = List(translations.rowwise().maxCoeff());
+    const UpAxis up = GuessUp(motion);
+    result.facts["guessed_up"] = Name(up);
+    if (up == UpAxis::kZ) {
+      result.warnings.push_back("z looks like the up axis, not y");
     }
-    const Eigen::Map<const Points> path(trans.data(), 3, frames);
-    result.facts["trans_min"] = List(path.rowwise().minCoeff());
-    result.facts["trans_max"] = List(path.rowwise().maxCoeff());
   });
   return result;
 }
@@ -135,7 +124,7 @@ Inspection InspectMotion(const Npz& npz) {
 Inspection InspectNpz(const std::string& path) {
   const Npz npz = ReadNpz(path);
   if (npz.Has("v_template")) return InspectBodyModel(path);
-  if (npz.Has("poses")) return InspectMotion(npz);
+  if (npz.Has("poses")) return InspectMotion(path);
   throw InputError(path + ": arrays " + Printable(Join(npz.Names())) +
                    ": expected a body model (v_template, ...) or a motion "
                    "(poses, trans)");

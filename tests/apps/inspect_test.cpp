@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "invsim/io/npz.h"
@@ -167,6 +168,18 @@ TEST_F(InspectTest, Motion) {
   EXPECT_EQ(json["facts"]["frames"], 60);
   EXPECT_EQ(json["facts"]["frames_per_second"], 30);
   EXPECT_EQ(json["facts"]["seconds"], 2);
+  EXPECT_EQ(json["facts"]["guessed_up"], "y");
+  EXPECT_THAT(json["warnings"], IsEmpty());
+
+  // A quarter turn about x: the body's up axis is the world's z.
+  std::vector<double> poses(72 * 2);
+  poses[0] = poses[72] = M_PI / 2;
+  NpzArrays z_up = Motion(2);
+  z_up[0].second = NpyArray::Doubles({2, 72}, poses);
+  WriteNpz(Path("m.npz"), z_up);
+  json = Inspect(Path("m.npz"));
+  EXPECT_EQ(json["facts"]["guessed_up"], "z");
+  EXPECT_THAT(json["warnings"], ElementsAre(HasSubstr("z looks like")));
 
   NpzArrays arrays = Motion(60);
   arrays[1].second = NpyArray::Doubles({59, 3}, std::vector<double>(3 * 59));

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/cloth_points_term.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "dressed_mannequin.h"
+#include "invsim/cloth/named_materials.h"
+#include "invsim/sim/relaxation.h"
+#include "invsim/sim/scene.h"
+
+namespace invsim {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr int kFrames = 3;
+
+// A tube of cloth on the trunk of a mannequin that leans and shifts.
+class ClothPoints : public ::testing::Test {
+ protected:
+  ClothPoints() : person_(0.01), garment_(person_.MakeGarment()) {
+    scene_.step.substeps = 1;
+    const Material material = FindMaterial(scene_.material);
+    simulator_ = std::make_unique<Simulator>(
+        MakeSetup(scene_, person_.body(), garment_, material));
+    for (int t = 0; t < kFrames; ++t) {
+      BodyParameters p;
+      p.pose[3 * 3] = 0.02 * t;  // bends forward
+      p.translation = Vector3d(0.004 * t, 0, 0.003 * t);
+      truth_.Append(p);
+      clouds_.push_back(person_.Scan(p, 300, t));
+    }
+    reference_.body = person_.body().Vertices({});
+    reference_.cloth.x = garment_.placed;
+    reference_.cloth.v = Points::Zero(3, garment_.num_vertices());
+    options_.lead_frames = 1;
+    options_.hold_frames = 0;
+    // No nearest point may change within a difference.
+    options_.points_to_surface = 0;
+    options_.loss = {"trivial", 1};
+    // Not the minimum, where there is no gradient to compare.
+    start_ = truth_;
+    start_.shape[0] = 0.1;
+    for (Vector3d& t : start_.translations) t += Vector3d(0.01, 0, -0.01);
+  }
+
+  ClothPointsTerm MakeTerm(int frames) {
+    return ClothPointsTerm(person_.body(),
+                           simulator_.get(),
+                           garment_.faces,
+                           VertexAreas(garment_),
+                           {clouds_.begin(), clouds_.begin() + frames},
+                           30,
+                           reference_,
+                           options_);
+  }
+
+  static BodySequence First(BodySequence x, int frames) {
+    x.poses.resize(frames);
+    x.translations.resize(frames);
+    return x;
+  }
+
+  // Sum of the frames' costs at x moved by h u in the shape and in pose and
+  // translation of the frames from `from` on.
+  double CostAlong(BodySequence x,
+                   const VectorXd& u,
+                   int from,
+                   double h,
+                   ClothPointsTerm* term) {
+    x.shape += h * u.head<kNumShape>();
+    for (int t = from; t < x.num_frames(); ++t) {
+      x.poses[t] += h * u.segment<kNumPose>(kNumShape);
+      x.translations[t] += h * u.tail<3>();
+    }
+    std::vector<double> costs;
+    EXPECT_EQ(term->Evaluate(x, kNoLimit, &costs), Evaluation::kDone);
+    double sum = 0;
+    for (const double cost : costs) sum += cost;
+    return sum;
+  }
+
+  // Slope of the cost along u by the blocks and by differences: shape in all
+  // frames, the rest in frames from `from` on.
+  void CompareSlopes(const VectorXd& u, int frames, int from) {
+    ClothPointsTerm term = MakeTerm(frames);
+    const BodySequence x = First(start_, frames);
+    CostAlong(x, u, from, 0, &term);
+    std::vector<FrameBlock> blocks;
+    ASSERT_TRUE(term.Linearize(&blocks));
+    VectorXd shape_only = u;
+    shape_only.tail(kNumPose + 3).setZero();
+    double slope = 0;
+    for (int t = 0; t < frames; ++t)
+      slope += (blocks[t].jacobian.transpose() * blocks[t].residual)
+                   .dot(t < from ? shape_only : u);
+    const double h = 1e-6;
+    const double difference =
+        (CostAlong(x, u, from, h, &term) - CostAlong(x, u, from, -h, &term)) /
+        (2 * h);
+    EXPECT_NEAR(slope, difference, 2e-3 * std::abs(difference));
+    EXPECT_GT(std::abs(difference), 1);
+  }
+
+  static VectorXd Direction(bool shape, bool pose, bool translation) {
+    Random random(5);
+    VectorXd u(kNumBodyParameters);
+    for (double& value : u) value = random.Normal();
+    if (!shape) u.head<kNumShape>().setZero();
+    u.segment<kNumPose>(kNumShape) *= pose ? 0.1 : 0;
+    u.tail<3>() *= translation ? 0.1 : 0;
+    return u;
+  }
+
+  DressedMannequin person_;
+  Garment garment_;
+  SceneOptions scene_;
+  std::unique_ptr<Simulator> simulator_;
+  BodySequence truth_, start_;
+  std::vector<Points> clouds_;
+  ClothReference reference_;
+  ClothPointsOptions options_;
+};
+
+// Of the last frame's own pose the paper's derivative misses nothing.
+TEST_F(ClothPoints, OneFrameIsExactInTheLastFrame) {
+  CompareSlopes(Direction(false, true, false), kFrames, kFrames - 1);
+  CompareSlopes(Direction(false, false, true), kFrames, kFrames - 1);
+}
+
+TEST_F(ClothPoints, OneFrameIsExactForASingleFrame) {
+  CompareSlopes(Direction(true, true, true), 1, 0);
+}
+
+// The shape moves the cloth of all frames, and so does a lasting change of
+// pose and place.
+TEST_F(ClothPoints, CarriedIsExactForTheShapeAndLastingChanges) {
+  options_.history = History::kCarried;
+  options_.hold_frames = 1;
+  CompareSlopes(Direction(true, false, false), kFrames, 0);
+  CompareSlopes(Direction(true, true, true), kFrames, 0);
+}
+
+TEST_F(ClothPoints, GivesUpAboveTheLimit) {
+  ClothPointsTerm term = MakeTerm(kFrames);
+  std::vector<double> costs;
+  EXPECT_EQ(term.Evaluate(start_, 1e-9, &costs), Evaluation::kAbandoned);
+  EXPECT_EQ(term.Evaluate(start_, kNoLimit, &costs), Evaluation::kDone);
+}
+
+// The same point twice is the same cost, whatever was evaluated in between.
+TEST_F(ClothPoints, DependsOnThePointAlone) {
+  ClothPointsTerm term = MakeTerm(kFrames);
+  const VectorXd u = Direction(true, true, true);
+  const double before = CostAlong(start_, u, 0, 0, &term);
+  CostAlong(start_, u, 0, 0.1, &term);
+  EXPECT_EQ(CostAlong(start_, u, 0, 0, &term), before);
+}
+
+TEST_F(ClothPoints, FailsWhereTheBodyIsNotFinite) {
+  ClothPointsTerm term = MakeTerm(kFrames);
+  start_.translations[1][0] = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> costs;
+  EXPECT_EQ(term.Evaluate(start_, kNoLimit, &costs), Evaluation::kFailed);
+}
+
+}  // namespace
+}  // namespace invsim

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "invsim/body/motion.h"
 #include "invsim/body/rotation.h"
 
 namespace invsim {
@@ -12,25 +13,6 @@ namespace {
 // A rotation whose quaternion has less than this of (w, y) has no heading.
 constexpr double kNoHeading = 1e-6;
 
-// b's rotation of joint j relative to a's, times s, applied to a's. s may be
-// outside [0, 1].
-Vector3d Turn(const Vector3d& a, const Vector3d& b, double s) {
-  const Vector3d turned = Log(Slerp(Exp(a), Exp(b), s));
-  return NearestEquivalent(turned, a);
-}
-
-BodyParameters Along(const BodyParameters& a,
-                     const BodyParameters& b,
-                     double s) {
-  BodyParameters p;
-  p.shape = (1 - s) * a.shape + s * b.shape;
-  p.translation = (1 - s) * a.translation + s * b.translation;
-  for (int j = 0; j < kNumJoints; ++j)
-    p.pose.segment<3>(3 * j) =
-        Turn(a.pose.segment<3>(3 * j), b.pose.segment<3>(3 * j), s);
-  return p;
-}
-
 }  // namespace
 
 BodyParameters Between(const BodyParameters& a,
@@ -38,7 +20,7 @@ BodyParameters Between(const BodyParameters& a,
                        double s) {
   if (s <= 0) return a;
   if (s >= 1) return b;
-  return Along(a, b, s);
+  return Interpolate(a, b, s);
 }
 
 Vector3d Heading(const Vector3d& rotation) {
@@ -77,7 +59,7 @@ BodyParameters BeforeFirst(std::span<const BodyParameters> motion,
   if (motion.size() < 2 || lead_in <= 0 || seconds >= 0) return motion[0];
   const double t = std::max(seconds, -lead_in);
   const double s = frames_per_second * (t + t * t / (2 * lead_in));
-  return Along(motion[0], motion[1], s);
+  return Interpolate(motion[0], motion[1], s);
 }
 
 }  // namespace invsim

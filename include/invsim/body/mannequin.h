@@ -6,7 +6,7 @@
 // the joints, order and use of SMPL (whose numbers mean other bodies: shape and
 // pose are not interchangeable). T-pose, facing +z, its left on +x, soles at
 // y = -1.1; one closed surface of about 3,500 vertices, symmetric to the last
-// bit, its smallest angle above 20 degrees. There are no pose blend shapes.
+// bit, its smallest angle above 18 degrees. There are no pose blend shapes.
 
 #include <array>
 
@@ -35,7 +35,7 @@ struct MannequinShapeInfo {
 };
 extern const std::array<MannequinShapeInfo, kNumShape> kMannequinShapes;
 
-// Computed when first asked for (about half a second), the same every time.
+// Computed when first asked for (in less than a second), the same every time.
 const BodyModel& Mannequin();
 
 }  // namespace invsim

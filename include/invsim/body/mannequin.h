@@ -35,7 +35,10 @@ struct MannequinShapeInfo {
 };
 extern const std::array<MannequinShapeInfo, kNumShape> kMannequinShapes;
 
-// Computed when first asked for (in less than a second), the same every time.
+// Computed when first asked for (in less than a second), the same on every run
+// of one build. Compiled for another processor, rounding may lead the remesher
+// to another mesh of the same surface: a body that is to be shared is written
+// with WriteBodyModel.
 const BodyModel& Mannequin();
 
 }  // namespace invsim

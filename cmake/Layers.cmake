@@ -24,20 +24,15 @@ function(invsim_layer name)
   set_property(GLOBAL APPEND PROPERTY INVSIM_TARGETS ${target})
 endfunction()
 
-# One test program per layer: tests/NAME/*_test.cpp; CTest name NAME/Case.Test,
-# label NAME.
-function(invsim_layer_tests name)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS
-       ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*_test.cpp)
-  if(NOT sources)
-    return()
-  endif()
+# invsim_tests(NAME SOURCES ... LIBRARIES ...): the test program NAME_tests;
+# CTest name NAME/Case.Test, label NAME.
+function(invsim_tests name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   set(target ${name}_tests)
-  add_executable(${target} ${sources})
-  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  add_executable(${target} ${ARG_SOURCES})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_options(${target} PRIVATE ${INVSIM_WARNINGS})
-  target_link_libraries(${target} PRIVATE invsim::${name} ${ARGN}
-                        GTest::gmock GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} invsim_test_main)
   gtest_discover_tests(${target} TEST_PREFIX "${name}/"
                        DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS ${name} TIMEOUT 300

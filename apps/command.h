@@ -78,6 +78,8 @@ class Command {
 };
 
 // One function per command_NAME.cpp; main.cpp lists them.
+std::unique_ptr<Command> MakeFitCommand();
+std::unique_ptr<Command> MakeInitCommand();
 std::unique_ptr<Command> MakeInspectCommand();
 std::unique_ptr<Command> MakeListCommand();
 std::unique_ptr<Command> MakeSimulateCommand();

@@ -91,13 +91,13 @@ class SimulateCommand : public Command {
   void Simulate(const Scene& scene,
                 const CommandContext& context,
                 Simulator* simulator,
-                SimulationWriter* writer,
+                FrameWriter* writer,
                 SimulationReport* report) const;
 
   InputOptions input_;
   SceneOptions scene_;
   RelaxationOptions relaxation_;
-  SimulationWriterOptions output_;
+  FrameWriterOptions output_;
   bool force_ = false;
 };
 
@@ -145,7 +145,7 @@ SimulationReport SimulateCommand::StartReport(
 void SimulateCommand::Simulate(const Scene& scene,
                                const CommandContext& context,
                                Simulator* simulator,
-                               SimulationWriter* writer,
+                               FrameWriter* writer,
                                SimulationReport* report) const {
   std::ostream* log = context.verbosity < 0 ? nullptr : &std::cerr;
   const ProgressStyle style = StyleFor(STDERR_FILENO);
@@ -189,16 +189,16 @@ ExitCode SimulateCommand::Run(const CommandContext& context) {
   folder.Write("config.resolved.toml", ResolvedToml(*context.options));
   WriteMotion(folder.File("body.npz"), scene.motion);
   SimulationReport report = StartReport(scene, simulator);
-  SimulationWriter writer(folder,
-                          scene.garment,
-                          scene.material,
-                          scene.body.faces(),
-                          report.frames_wanted,
-                          report.frames_per_second,
-                          output_);
+  FrameWriter writer(folder,
+                     scene.garment,
+                     scene.material,
+                     scene.body.faces(),
+                     report.frames_wanted,
+                     report.frames_per_second,
+                     output_);
   Simulate(scene, context, &simulator, &writer, &report);
   report.seconds = watch.seconds();
-  writer.Finish(&report);
+  WriteSimulation(folder, &writer, &report);
 
   if (MissedSteps(report) > 0)
     LOG(WARNING) << MissedSteps(report)

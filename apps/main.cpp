@@ -7,6 +7,8 @@
 
 int main(int argc, char** argv) {
   std::vector<std::unique_ptr<invsim::Command>> commands;
+  commands.push_back(invsim::MakeFitCommand());
+  commands.push_back(invsim::MakeInitCommand());
   commands.push_back(invsim::MakeInspectCommand());
   commands.push_back(invsim::MakeListCommand());
   commands.push_back(invsim::MakeSimulateCommand());

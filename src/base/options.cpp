@@ -284,6 +284,12 @@ void OptionTable::AddOption(Option option) {
   options_.push_back(std::move(option));
 }
 
+bool OptionTable::IsSet(const std::string& key) const {
+  for (const Option& option : options_)
+    if (option.key == key) return !option.origin.empty();
+  return false;
+}
+
 std::vector<std::string> OptionTable::keys() const {
   std::vector<std::string> keys;
   for (const Option& option : options_) keys.push_back(option.key);

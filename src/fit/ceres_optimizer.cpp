@@ -64,8 +64,7 @@ class Recorder : public ceres::IterationCallback {
 
 Termination Classify(const ceres::Solver::Summary& summary,
                      const Objective& objective,
-                     const Recorder& recorder,
-                     double time_limit) {
+                     const Recorder& recorder) {
   const bool started = !recorder.records.empty();
   if (started && recorder.stopped) return Termination::kInterrupted;
   // Ceres calls it convergence, or in a line search failure, when no step can
@@ -75,22 +74,19 @@ Termination Classify(const ceres::Solver::Summary& summary,
   if (!summary.IsSolutionUsable()) return Termination::kFailed;
   if (summary.termination_type == ceres::CONVERGENCE)
     return Termination::kConverged;
-  return time_limit > 0 && summary.total_time_in_seconds >= time_limit
-             ? Termination::kTimeLimit
-             : Termination::kIterationLimit;
+  return Termination::kIterationLimit;
 }
 
 class CeresOptimizer : public Optimizer {
  public:
   CeresOptimizer(const CeresOptions& options, ceres::Solver::Options solver)
-      : options_(options), solver_(std::move(solver)) {
+      : solver_(std::move(solver)) {
     solver_.max_num_iterations = options.iterations;
     solver_.function_tolerance = options.function_tolerance;
     solver_.parameter_tolerance = options.parameter_tolerance;
     solver_.gradient_tolerance = options.gradient_tolerance;
     solver_.initial_trust_region_radius = options.radius;
-    if (options.time_limit > 0)
-      solver_.max_solver_time_in_seconds = options.time_limit;
+    solver_.max_solver_time_in_seconds = kNoLimit;
     solver_.logging_type = ceres::SILENT;
     solver_.num_threads = 1;
   }
@@ -111,8 +107,7 @@ class CeresOptimizer : public Optimizer {
     objective->SetCostLimit(kNoLimit);
 
     OptimizerSummary result;
-    result.termination =
-        Classify(summary, *objective, recorder, options_.time_limit);
+    result.termination = Classify(summary, *objective, recorder);
     result.reason = summary.message;
     result.initial_cost = summary.initial_cost;
     result.final_cost = summary.final_cost;
@@ -124,7 +119,6 @@ class CeresOptimizer : public Optimizer {
   }
 
  private:
-  CeresOptions options_;
   ceres::Solver::Options solver_;
 };
 
@@ -146,10 +140,6 @@ void Describe(OptionTable* table, CeresOptions* o) {
       {.doc = "done when no gradient component is larger", .at_least = 0});
   table->Add(
       "radius", &o->radius, {.doc = "first trust region radius", .above = 0});
-  table->Add(
-      "time_limit",
-      &o->time_limit,
-      {.doc = "stop after this time; 0: never", .unit = "s", .at_least = 0});
 }
 
 std::unique_ptr<Optimizer> MakeLevenbergMarquardt(const CeresOptions& options) {

@@ -20,8 +20,6 @@
 namespace invsim {
 namespace {
 
-// Share of its velocity the cloth keeps per frame while frame 0 is held.
-constexpr double kKeptVelocity = 0.7;
 constexpr double kOnSurface = 1e-9;  // m
 
 enum class Side { kCloth, kSkin };
@@ -77,9 +75,10 @@ PointResidual ToFace(Side side,
 }  // namespace
 
 struct ClothPointsTerm::Impl {
-  Impl(const BodyModel& model, Simulator* sim, const Faces& faces);
-  bool Simulate(const BodySequence& x, int t);
-  bool Lead(const Points& body);
+  Impl(const BodyModel& model,
+       const Faces& faces,
+       const ClothPointsOptions& o,
+       ClothRollout r);
   void FindResiduals(int t);
   double Total(int t) const { return Block(t, nullptr, nullptr).cost; }
   FrameBlock Block(int t, const MatrixXd* skin, const Columns* cloth) const;
@@ -92,80 +91,34 @@ struct ClothPointsTerm::Impl {
   bool LinearizeOneFrame(std::vector<FrameBlock>* blocks);
 
   const BodyModel& body;
-  Simulator* simulator;
   Faces cloth_faces;
+  ClothPointsOptions options;
+  ClothRollout rollout;
   VectorXd cloth_share, body_share;
   std::vector<KdTree> trees;
-  double dt = 1.0 / 30;
-  ClothReference reference;
-  ClothPointsOptions options;
   std::shared_ptr<const ceres::LossFunction> loss;
   std::unique_ptr<SurfaceIndex> body_index, cloth_index;
   std::vector<int> every_vertex;
-
   std::vector<FrameState> frames;
-  std::vector<ClothState> cloth;
-  // records[t] ends at frame t; lead_records come before.
-  std::vector<FrameRecord> records, lead_records;
   ClothPointsStats stats;
 };
 
 ClothPointsTerm::Impl::Impl(const BodyModel& model,
-                            Simulator* sim,
-                            const Faces& faces)
-    : body(model), simulator(sim), cloth_faces(faces) {
+                            const Faces& faces,
+                            const ClothPointsOptions& o,
+                            ClothRollout r)
+    : body(model), cloth_faces(faces), options(o), rollout(std::move(r)) {
   body_share = VertexShares(model.data().v_template, model.faces());
   every_vertex.resize(model.num_vertices());
   std::iota(every_vertex.begin(), every_vertex.end(), 0);
-}
-
-// From the reference to frame 0. The body's way is straight; it is short.
-bool ClothPointsTerm::Impl::Lead(const Points& target) {
-  ClothState state = reference.cloth;
-  const int moves = std::max(1, options.lead_frames);
-  const int all = moves + options.hold_frames;
-  lead_records.resize(all);
-  Points before = reference.body;
-  for (int k = 1; k <= all; ++k) {
-    const double s = std::min(1.0, static_cast<double>(k) / moves);
-    const Points after = (1 - s) * reference.body + s * target;
-    if (!simulator->Advance(
-            before, after, dt, &state, &stats.step, &lead_records[k - 1]))
-      return false;
-    state.v *= k > moves ? kKeptVelocity : 1.0;
-    before = after;
-    ++stats.frames;
-  }
-  state.v.setZero();
-  cloth[0] = state;
-  return true;
-}
-
-bool ClothPointsTerm::Impl::Simulate(const BodySequence& x, int t) {
-  const Stopwatch watch;
-  frames[t].body = body.Pose(x.Frame(t));
-  const Points& after = frames[t].body->vertices();
-  bool good = true;
-  if (t == 0) {
-    simulator->FindInside(reference.body, reference.cloth);
-    good = Lead(after);
-  } else {
-    const Points& before = frames[t - 1].body->vertices();
-    simulator->FindInside(before, cloth[t - 1]);
-    cloth[t] = cloth[t - 1];
-    good = simulator->Advance(
-        before, after, dt, &cloth[t], &stats.step, &records[t]);
-    ++stats.frames;
-  }
-  stats.simulation_seconds += watch.seconds();
-  return good;
+  loss = MakeLoss(options.loss);
 }
 
 void ClothPointsTerm::Impl::FindResiduals(int t) {
   const Stopwatch watch;
   FrameState& frame = frames[t];
   const Points& skin = frame.body->vertices();
-  const Points& garment = cloth[t].x;
+  const Points& garment = rollout.cloth(t).x;
   body_index->Update(skin);
   cloth_index->Update(garment);
   const std::vector<bool> covered =
@@ -258,7 +211,7 @@ FrameBlock ClothPointsTerm::Impl::Block(int t,
 bool ClothPointsTerm::Impl::BlockOneFrame(int t,
                                           Sensitivity* sensitivity,
                                           FrameBlock* block) {
-  const FrameRecord& record = t == 0 ? lead_records.back() : records[t];
+  const FrameRecord& record = rollout.record(t);
   const std::vector<int> touched =
       Sensitivity::BodyVertices(body.faces(), record);
   const MatrixXd skin = frames[t].body->Jacobian(every_vertex);
@@ -279,7 +232,7 @@ bool ClothPointsTerm::Impl::LinearizeOneFrame(std::vector<FrameBlock>* blocks) {
   const int grain =
       std::max(1, (n + 2 * NumThreads() - 1) / (2 * NumThreads()));
   ParallelForPieces(n, grain, [&](int begin, int end) {
-    Sensitivity sensitivity(*simulator);
+    Sensitivity sensitivity(rollout.simulator());
     for (int t = begin; t < end && good; ++t)
       if (!BlockOneFrame(t, &sensitivity, &(*blocks)[t])) good = false;
   });
@@ -292,7 +245,7 @@ bool ClothPointsTerm::Impl::Carry(const FrameRecord& record,
                                   const PosedBody* before,
                                   const PosedBody& after,
                                   StateColumns* columns) {
-  Sensitivity sensitivity(*simulator);
+  Sensitivity sensitivity(rollout.simulator());
   const std::vector<int> touched =
       Sensitivity::BodyVertices(body.faces(), record);
   const Columns body0 = before ? Columns(before->Jacobian(touched)) : Columns();
@@ -314,17 +267,19 @@ bool ClothPointsTerm::Impl::LinearizeCarried(std::vector<FrameBlock>* blocks) {
   StateColumns columns;
   // While held the body already is that of frame 0.
   const PosedBody* before = nullptr;
-  for (size_t k = std::max(1, options.lead_frames) - 1; k < lead_records.size();
-       ++k) {
-    if (!Carry(lead_records[k], before, *frames[0].body, &columns))
-      return false;
+  const std::vector<FrameRecord>& lead = rollout.lead_records();
+  const size_t moves = std::max(1, options.lead.lead_frames);
+  for (size_t k = moves - 1; k < lead.size(); ++k) {
+    if (!Carry(lead[k], before, *frames[0].body, &columns)) return false;
     before = frames[0].body.get();
-    if (static_cast<int>(k) >= options.lead_frames) columns.v *= kKeptVelocity;
+    if (k >= moves) columns.v *= ClothRollout::kKeptVelocity;
   }
   columns.v.setZero();
   for (int t = 0; t < n; ++t) {
-    if (t > 0 &&
-        !Carry(records[t], frames[t - 1].body.get(), *frames[t].body, &columns))
+    if (t > 0 && !Carry(rollout.record(t),
+                        frames[t - 1].body.get(),
+                        *frames[t].body,
+                        &columns))
       return false;
     const MatrixXd skin = frames[t].body->Jacobian(every_vertex);
     (*blocks)[t] = Block(t, &skin, &columns.x);
@@ -340,20 +295,21 @@ ClothPointsTerm::ClothPointsTerm(const BodyModel& body,
                                  double frames_per_second,
                                  const ClothReference& reference,
                                  const ClothPointsOptions& options)
-    : impl_(std::make_unique<Impl>(body, simulator, cloth_faces)) {
+    : impl_(std::make_unique<Impl>(body,
+                                   cloth_faces,
+                                   options,
+                                   ClothRollout(simulator,
+                                                reference,
+                                                static_cast<int>(clouds.size()),
+                                                frames_per_second,
+                                                options.lead))) {
   impl_->cloth_share = cloth_areas / cloth_areas.sum();
   for (const Points& cloud : clouds) impl_->trees.emplace_back(cloud);
-  impl_->dt = 1 / frames_per_second;
-  impl_->reference = reference;
-  impl_->options = options;
-  impl_->loss = MakeLoss(options.loss);
   impl_->body_index =
       std::make_unique<SurfaceIndex>(reference.body, body.faces());
   impl_->cloth_index =
       std::make_unique<SurfaceIndex>(reference.cloth.x, cloth_faces);
   impl_->frames.resize(clouds.size());
-  impl_->cloth.resize(clouds.size());
-  impl_->records.resize(clouds.size());
 }
 
 ClothPointsTerm::~ClothPointsTerm() = default;
@@ -369,9 +325,13 @@ Evaluation ClothPointsTerm::Evaluate(const BodySequence& x,
   double total = 0;
   for (int t = 0; t < num_frames(); ++t) {
     if (InterruptRequested()) return Evaluation::kAbandoned;
-    if (!impl_->Simulate(x, t)) return Evaluation::kFailed;
+    impl_->frames[t].body = impl_->body.Pose(x.Frame(t));
+    if (!impl_->rollout.Step(t, impl_->frames[t].body->vertices()))
+      return Evaluation::kFailed;
     impl_->FindResiduals(t);
+    const Stopwatch watch;
     total += (*costs)[t] = impl_->Total(t);
+    impl_->stats.block_seconds += watch.seconds();
     if (!std::isfinite(total)) return Evaluation::kFailed;
     if (total > cost_limit) return Evaluation::kAbandoned;
   }
@@ -388,16 +348,33 @@ bool ClothPointsTerm::Linearize(std::vector<FrameBlock>* blocks) {
   return good;
 }
 
-const std::vector<ClothState>& ClothPointsTerm::cloth() const {
-  return impl_->cloth;
+ClothRollout& ClothPointsTerm::rollout() { return impl_->rollout; }
+const ClothRollout& ClothPointsTerm::rollout() const { return impl_->rollout; }
+
+ClothPointsCosts ClothPointsTerm::costs() const {
+  ClothPointsCosts costs;
+  const auto cost = [&](double weight, double squared) {
+    double rho[3];
+    impl_->loss->Evaluate(squared, rho);
+    return 0.5 * weight * rho[0];
+  };
+  for (const FrameState& frame : impl_->frames) {
+    for (const VertexResidual& v : frame.vertices)
+      (v.side == Side::kCloth ? costs.cloth_to_points : costs.skin_to_points) +=
+          cost(v.weight, v.offset.squaredNorm());
+    for (const PointResidual& p : frame.points)
+      costs.points_to_surface += cost(p.weight, p.distance * p.distance);
+  }
+  return costs;
 }
 
-void ClothPointsTerm::MoveReference() {
-  impl_->reference.body = impl_->frames[0].body->vertices();
-  impl_->reference.cloth = impl_->cloth[0];
+ClothPointsStats ClothPointsTerm::stats() const {
+  ClothPointsStats stats = impl_->stats;
+  stats.step = impl_->rollout.stats();
+  stats.frames = impl_->rollout.frames_simulated();
+  stats.simulation_seconds = impl_->rollout.seconds();
+  return stats;
 }
-
-const ClothPointsStats& ClothPointsTerm::stats() const { return impl_->stats; }
 
 void Describe(OptionTable* table, ClothPointsOptions* o) {
   table->Add("noise",
@@ -419,13 +396,7 @@ void Describe(OptionTable* table, ClothPointsOptions* o) {
   table->Add("points_to_surface",
              &o->points_to_surface,
              {.doc = "weight of the points' distances", .at_least = 0});
-  table->Add(
-      "lead_frames",
-      &o->lead_frames,
-      {.doc = "frames in which the first body is reached", .at_least = 1});
-  table->Add("hold_frames",
-             &o->hold_frames,
-             {.doc = "frames it is then held", .at_least = 0});
+  Describe(table, &o->lead);
   table->Add(
       "history",
       &o->history,

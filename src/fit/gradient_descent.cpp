@@ -164,11 +164,6 @@ OptimizerSummary GradientDescent::Run(Objective* objective,
       break;
     }
     if (i == options_.iterations) break;
-    if (options_.time_limit > 0 && watch.seconds() >= options_.time_limit) {
-      summary.termination = Termination::kTimeLimit;
-      summary.reason = "The time limit was reached.";
-      break;
-    }
     const double before = s.cost;
     if (!Step(objective, &point, &s)) {
       summary.termination =
@@ -207,10 +202,6 @@ void Describe(OptionTable* table, GradientDescentOptions* o) {
       "function_tolerance",
       &o->function_tolerance,
       {.doc = "done when the cost changes by less, relative", .at_least = 0});
-  table->Add(
-      "time_limit",
-      &o->time_limit,
-      {.doc = "stop after this time; 0: never", .unit = "s", .at_least = 0});
 }
 
 std::unique_ptr<Optimizer> MakeGradientDescent(

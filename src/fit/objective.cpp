@@ -73,6 +73,11 @@ class AddOffset : public ceres::LossFunction {
   int frame_;
 };
 
+bool SamePoint(const BodySequence& a, const BodySequence& b) {
+  return a.shape == b.shape && a.poses == b.poses &&
+         a.translations == b.translations;
+}
+
 std::vector<int> FixedAngles(const FreeParameters& free) {
   std::vector<int> fixed;
   for (int i = 0; i < kNumPose; ++i)
@@ -101,6 +106,7 @@ struct Objective::Impl : public ceres::EvaluationCallback {
   BodySequence* x;
   DataState data;
   double cost_limit = std::numeric_limits<double>::infinity();
+  BodySequence evaluated;  // where `data` is
   ObjectiveCounts counts;
   std::unique_ptr<ceres::Problem> problem;
   // Ceres lists its blocks by their addresses; gradients follow this list.
@@ -161,6 +167,9 @@ void Objective::Impl::AddPriors() {
 }
 
 void Objective::Impl::EvaluateTerm() {
+  // Covariances and gradients are asked for where the optimiser just was.
+  if (data.usable && SamePoint(*x, evaluated)) return;
+  evaluated = *x;
   ++counts.evaluations;
   const Evaluation outcome = term->Evaluate(*x, cost_limit, &data.costs);
   data.usable = outcome == Evaluation::kDone;

@@ -67,6 +67,22 @@ RunFolder::RunFolder(const std::string& path, bool force) : path_(path) {
   }
 }
 
+RunFolder RunFolder::Reopen(const std::string& path) {
+  if (!fs::is_directory(fs::path(path) / kCheckpoint))
+    throw UsageError(path + ": no run to resume there (expected a folder " +
+                     kCheckpoint + " in it)");
+  return RunFolder(path);
+}
+
+std::string RunFolder::Checkpoint() const {
+  std::error_code error;
+  fs::create_directories(fs::path(path_) / kCheckpoint, error);
+  if (error)
+    throw InputError(File(kCheckpoint) +
+                     ": cannot be made: " + error.message());
+  return File(kCheckpoint);
+}
+
 std::string RunFolder::File(const std::string& name) const {
   return (fs::path(path_) / name).string();
 }

@@ -14,12 +14,6 @@ namespace {
 constexpr double kMostInside = 0.25;  // share of the garment's vertices
 constexpr double kNear = 0.1;         // m
 
-bool WasSet(const OptionTable& table, const std::string& key) {
-  for (const OptionTable::Option& option : table.options())
-    if (option.key == key) return !option.origin.empty();
-  return false;
-}
-
 }  // namespace
 
 SceneOptions::SceneOptions() {
@@ -44,7 +38,7 @@ void Describe(OptionTable* table, SceneOptions* o) {
 void UseMaterialFriction(const OptionTable& table,
                          const Material& material,
                          SceneOptions* options) {
-  if (!WasSet(table, "contact.friction"))
+  if (!table.IsSet("contact.friction"))
     options->contact.friction = material.friction;
 }
 

@@ -415,6 +415,8 @@ int Simulator::FindInside(const Points& body, const ClothState& state) {
   return impl_->detector ? impl_->detector->FindInside(body, state.x) : 0;
 }
 
+void Simulator::Forget() { impl_->last_x.resize(3, 0); }
+
 const Points& Simulator::contact_force() const { return impl_->contact_force; }
 
 Points Simulator::BodyForce() const {

@@ -35,8 +35,8 @@ class ClothPoints : public ::testing::Test {
     reference_.body = person_.body().Vertices({});
     reference_.cloth.x = garment_.placed;
     reference_.cloth.v = Points::Zero(3, garment_.num_vertices());
-    options_.lead_frames = 1;
-    options_.hold_frames = 0;
+    options_.lead.lead_frames = 1;
+    options_.lead.hold_frames = 0;
     // No nearest point may change within a difference.
     options_.points_to_surface = 0;
     options_.loss = {"trivial", 1};
@@ -138,7 +138,7 @@ TEST_F(ClothPoints, OneFrameIsExactForASingleFrame) {
 // pose and place.
 TEST_F(ClothPoints, CarriedIsExactForTheShapeAndLastingChanges) {
   options_.history = History::kCarried;
-  options_.hold_frames = 1;
+  options_.lead.hold_frames = 1;
   CompareSlopes(Direction(true, false, false), kFrames, 0);
   CompareSlopes(Direction(true, true, true), kFrames, 0);
 }

@@ -28,10 +28,10 @@ class SimulationWriterTest : public testing::Test {
   // The sheet falls onto the ball for `frames` of `wanted` frames.
   SimulationReport Simulate(int frames,
                             int wanted,
-                            const SimulationWriterOptions& options) {
+                            const FrameWriterOptions& options) {
     Simulator simulator(MakeSetup({}, body_, sheet_, material_));
     const RunFolder folder(root_.string(), false);
-    SimulationWriter writer(
+    FrameWriter writer(
         folder, sheet_, material_, body_.faces(), wanted, 30, options);
     SimulationReport report;
     report.frames_wanted = wanted;
@@ -47,7 +47,7 @@ class SimulationWriterTest : public testing::Test {
         30,
         &state,
         [&](const SimulatedFrame& f) { writer.AddFrame(f); });
-    writer.Finish(&report);
+    WriteSimulation(folder, &writer, &report);
     last_ = state;
     force_ = simulator.contact_force();
     return report;
@@ -90,7 +90,7 @@ TEST_F(SimulationWriterTest, FramesHoldTheStateForcesAndPressure) {
 }
 
 TEST_F(SimulationWriterTest, KeepsTheFramesDoneAndThinsThosePictured) {
-  SimulationWriterOptions options;
+  FrameWriterOptions options;
   options.most_poses = 3;  // of 6: every second
   options.ply = false;
   Simulate(5, 6, options);
@@ -107,7 +107,7 @@ TEST_F(SimulationWriterTest, WithoutAnyFrameStillSaysWhy) {
   SimulationReport report;
   report.frames_wanted = 4;
   report.relaxation.status = RunStatus::kFailed;
-  writer.Finish(&report);
+  WriteSimulation(folder, &writer, &report);
   EXPECT_THAT(ReadFileBytes((root_ / "solver.txt").string()),
               testing::HasSubstr("Failed"));
   EXPECT_TRUE(fs::exists(root_ / "report.html"));

@@ -109,6 +109,8 @@ class OptionTable {
   // In the order of registration.
   const std::vector<Option>& options() const { return options_; }
   std::vector<std::string> keys() const;
+  // Whether a configuration gave this key a value.
+  bool IsSet(const std::string& key) const;
 
  private:
   void AddOption(Option option);

@@ -15,10 +15,6 @@
 // information: all points of a frame together weigh as `observations`
 // independent measurements of standard deviation `noise`.
 //
-// The cloth at frame 0 is led from a reference, cloth at rest on a reference
-// body (sim/relaxation.h), by moving that body to the wanted one in
-// `lead_frames` and holding it for `hold_frames` with damped cloth.
-//
 // Which part of the cloth's past its derivative knows is `History`; what is
 // left out is left out of derivatives only, never of the cost.
 
@@ -26,9 +22,9 @@
 #include <vector>
 
 #include "invsim/body/body_model.h"
+#include "invsim/fit/cloth_rollout.h"
 #include "invsim/fit/data_term.h"
 #include "invsim/fit/loss.h"
-#include "invsim/sim/simulator.h"
 
 namespace invsim {
 
@@ -48,16 +44,16 @@ struct ClothPointsOptions {
   double cloth_to_points = 0.3;
   double skin_to_points = 0.3;
   double points_to_surface = 1;
-  int lead_frames = 4;
-  int hold_frames = 4;
+  LeadOptions lead;
   History history = History::kOneFrame;
 };
 void Describe(OptionTable* table, ClothPointsOptions* options);
 
-// Where the cloth of the first frame comes from.
-struct ClothReference {
-  Points body;       // 3 x V
-  ClothState cloth;  // at rest on it
+// The cost by kind of distance.
+struct ClothPointsCosts {
+  double cloth_to_points = 0;
+  double skin_to_points = 0;
+  double points_to_surface = 0;
 };
 
 struct ClothPointsStats {
@@ -66,7 +62,7 @@ struct ClothPointsStats {
   double simulation_seconds = 0;
   double neighbour_seconds = 0;
   double sensitivity_seconds = 0;
-  double block_seconds = 0;  // residuals and their compression
+  double block_seconds = 0;  // the cost of the residuals found
 };
 
 class ClothPointsTerm : public DataTerm {
@@ -88,11 +84,12 @@ class ClothPointsTerm : public DataTerm {
                       std::vector<double>* costs) override;
   bool Linearize(std::vector<FrameBlock>* blocks) override;
 
-  // The cloth of every frame at the point evaluated last.
-  const std::vector<ClothState>& cloth() const;
-  // From now on frame 0 is led from the point evaluated last.
-  void MoveReference();
-  const ClothPointsStats& stats() const;
+  // The simulation of the point evaluated last.
+  ClothRollout& rollout();
+  const ClothRollout& rollout() const;
+  // The cost of the point evaluated last, by kind.
+  ClothPointsCosts costs() const;
+  ClothPointsStats stats() const;
 
  private:
   struct Impl;

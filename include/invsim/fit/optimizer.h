@@ -23,8 +23,8 @@ namespace invsim {
 enum class Termination {
   kConverged,       // a tolerance was met
   kIterationLimit,  // usable, not converged
-  kTimeLimit,       // likewise
-  kInterrupted,     // a stop was asked for
+  kTimeLimit,       // likewise; said by who watches the time (sequence_fit.h)
+  kInterrupted,     // the observer asked for a stop
   kStalled,         // the last steps failed to evaluate: at the border of what
                     // can be simulated
   kFailed           // the start cannot be evaluated, or nothing was gained
@@ -72,7 +72,6 @@ struct CeresOptions {
   double parameter_tolerance = 1e-8;  // |step| / |x|
   double gradient_tolerance = 1e-10;  // largest component
   double radius = 1e4;                // first trust region
-  double time_limit = 0;              // seconds; 0: none
 };
 void Describe(OptionTable* table, CeresOptions* options);
 
@@ -83,7 +82,6 @@ struct GradientDescentOptions {
   double step = 1e-7;
   bool backtracking = true;
   double function_tolerance = 1e-6;
-  double time_limit = 0;  // seconds; 0: none
 };
 void Describe(OptionTable* table, GradientDescentOptions* options);
 

@@ -12,11 +12,16 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace invsim {
 
 class RunFolder {
  public:
+  // The folder of a run that is to be resumed, as it is. Throws UsageError if
+  // it has no checkpoint.
+  static RunFolder Reopen(const std::string& path);
+
   // Makes the folder, with those above it. Throws UsageError if there is
   // something else of that name, or files in it and not `force`; InputError if
   // it cannot be made or written to. With `force` the files of an earlier run,
@@ -27,12 +32,16 @@ class RunFolder {
   const std::string& path() const { return path_; }
   // "PATH/name".
   std::string File(const std::string& name) const;
+  // "PATH/checkpoint", made if it is not there. Throws InputError.
+  std::string Checkpoint() const;
   // "PATH/kind/000012.ply"; makes the sub-folder `kind`, "body" or "cloth".
   std::string Frame(const std::string& kind, int frame) const;
   // Throws InputError.
   void Write(const std::string& name, std::string_view bytes) const;
 
  private:
+  explicit RunFolder(std::string path) : path_(std::move(path)) {}
+
   std::string path_;
 };
 

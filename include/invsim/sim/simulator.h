@@ -112,6 +112,10 @@ class Simulator {
   // were set from outside. Returns how many there are.
   int FindInside(const Points& body, const ClothState& state);
 
+  // Forgets the last step, whose forces start the next one if the cloth was
+  // not moved since: what follows depends only on what is given to it.
+  void Forget();
+
   // Contact force on every vertex (N) of the last sub-step advanced.
   const Points& contact_force() const;
   // Its reaction spread over the body's vertices (N), 3 x V.

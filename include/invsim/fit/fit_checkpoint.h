@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_FIT_FIT_CHECKPOINT_H_
+#define INVSIM_FIT_FIT_CHECKPOINT_H_
+
+// The files in which a fit leaves what it has (sequence_fit.h):
+//
+//   start.npz        the body of stage 1, AMASS layout
+//   reference.npz    body (V,3), x and v (N,3): the cloth at rest of stage 2
+//   evaluations.bin  the evaluations of stage 3 (remembered_term.h)
+//
+// A file is there whole or not at all; evaluations.bin is there up to its last
+// whole record.
+
+#include <optional>
+#include <string>
+
+#include "invsim/fit/body_sequence.h"
+#include "invsim/fit/cloth_rollout.h"
+
+namespace invsim {
+
+class FitCheckpoint {
+ public:
+  // "": nothing is kept, nothing found. Otherwise an existing folder.
+  explicit FitCheckpoint(const std::string& folder) : folder_(folder) {}
+
+  bool kept() const { return !folder_.empty(); }
+  std::string evaluations() const { return folder_ + "/evaluations.bin"; }
+
+  // Nothing if it is not there. Throws InputError if it is damaged or of
+  // another sequence.
+  std::optional<BodySequence> LoadStart(int num_frames) const;
+  std::optional<ClothReference> LoadReference(int body_vertices,
+                                              int cloth_vertices) const;
+  // Throw InputError if a file cannot be written.
+  void Save(const BodySequence& start) const;
+  void Save(const ClothReference& reference) const;
+
+ private:
+  std::string folder_;
+};
+
+}  // namespace invsim
+
+#endif  // INVSIM_FIT_FIT_CHECKPOINT_H_

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_FIT_SEQUENCE_FIT_H_
+#define INVSIM_FIT_SEQUENCE_FIT_H_
+
+// From point clouds to the body under the clothes and the moving garment.
+//
+//   1. A first body for every frame, from the points alone (body_init.h).
+//   2. The garment is carried to the estimated shape (cloth/carry.h) and led
+//      to rest on the body of frame 0 (sim/relaxation.h).
+//   3. Inverse simulation: an optimiser moves shape, poses and translations
+//      until the simulated, clothed body meets the points (objective.h,
+//      cloth_points_term.h; the paper's eq. 5).
+//   4. The garment is simulated once more at the solution, and the uncertainty
+//      of the unknowns is found there.
+//
+// With a checkpoint folder each stage leaves its result there, and every
+// evaluation of stage 3 (remembered_term.h). Called again with the same folder
+// the fit goes on where it was, and ends in the same result.
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "invsim/fit/body_init.h"
+#include "invsim/fit/cloth_points_term.h"
+#include "invsim/fit/optimizer.h"
+#include "invsim/fit/uncertainty.h"
+#include "invsim/sim/relaxation.h"
+
+namespace invsim {
+
+struct FitOptions {
+  FitOptions();
+
+  BodyInitOptions init;
+  RelaxationOptions relaxation;
+  ClothPointsOptions data;
+  PriorOptions priors;
+  std::string optimizer = "lm";
+  // The options of every optimiser by name, chosen or not.
+  std::map<std::string, std::unique_ptr<Choice<Optimizer>>> optimizers;
+  bool uncertainty = true;
+  double time_limit = 0;  // s, of all stages; 0: none
+};
+// Keys init.*, relaxation.*, data.*, priors.*, fit.*, and those of every
+// optimiser under its name.
+void Describe(OptionTable* table, FitOptions* options);
+
+struct FitScene {
+  const BodyModel& body;
+  const Garment& garment;  // around the T-posed body of shape zero
+  Simulator* simulator;
+  const std::vector<Points>& clouds;  // one per frame, metres, y up
+  double frames_per_second;
+  // Where to start instead of stage 1.
+  std::optional<BodySequence> start;
+  // False: stages 1, 2 and 4 only.
+  bool optimize = true;
+  std::uint64_t seed = 0;
+  std::string checkpoint;  // an existing folder; "": none
+};
+
+// Told what goes on; any may be empty. Answers of false ask for a stop.
+struct FitObserver {
+  InitObserver init;
+  RelaxationCallback relaxation;
+  IterationObserver iteration;
+  // Frames of the final simulation, in order.
+  FrameCallback frame;
+};
+
+struct FitSeconds {
+  double init = 0, relaxation = 0, optimization = 0, final_simulation = 0,
+         uncertainty = 0;
+  double total() const {
+    return init + relaxation + optimization + final_simulation + uncertainty;
+  }
+};
+
+struct FitResult {
+  // kConverged also where there was nothing to optimise; kTimeLimit and
+  // kInterrupted whatever stage they met.
+  Termination termination = Termination::kFailed;
+  std::string reason;      // one sentence
+  bool simulated = false;  // whether there is cloth, that is stage 4 was done
+
+  BodySequence start;  // what the optimiser was given
+  BodySequence body;
+  std::optional<BodyInit> init;
+  bool carried = false;    // the garment, to the shape of `start`
+  std::string carry_note;  // why not
+  std::optional<RelaxationResult> relaxation;
+  std::optional<OptimizerSummary> optimizer;
+  ClothPointsCosts costs;  // at `body`
+  ClothPointsStats stats;  // of stages 3 and 4
+  std::optional<Uncertainty> uncertainty;
+  int recalled = 0;  // answers found in the checkpoint
+  FitSeconds seconds;
+};
+
+// Throws InputError for points that cannot be a person's, or a checkpoint that
+// cannot be written.
+FitResult FitSequence(const FitScene& scene,
+                      const FitOptions& options,
+                      const FitObserver& observer);
+
+}  // namespace invsim
+
+#endif  // INVSIM_FIT_SEQUENCE_FIT_H_

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/fit_checkpoint.h"
+
+#include <filesystem>
+
+#include "invsim/base/error.h"
+#include "invsim/body/motion.h"
+#include "invsim/io/npz.h"
+
+namespace invsim {
+namespace {
+
+constexpr char kStart[] = "/start.npz";
+constexpr char kReference[] = "/reference.npz";
+
+NpyArray Rows(const Points& points) {
+  return NpyArray::Doubles({points.cols(), 3},
+                           {points.data(), points.data() + points.size()});
+}
+
+Points FromRows(const Npz& npz, const std::string& name, int count) {
+  const std::vector<double> values = npz.Doubles(name, {count, 3});
+  return Eigen::Map<const Points>(values.data(), 3, count);
+}
+
+}  // namespace
+
+std::optional<BodySequence> FitCheckpoint::LoadStart(int num_frames) const {
+  const std::string path = folder_ + kStart;
+  if (!kept() || !std::filesystem::exists(path)) return std::nullopt;
+  const Motion motion = ReadMotion(path);
+  if (motion.num_frames() != num_frames)
+    throw InputError(path + ": has " + std::to_string(motion.num_frames()) +
+                     " frames, expected " + std::to_string(num_frames));
+  return BodySequence{motion.shape, motion.poses, motion.translations};
+}
+
+std::optional<ClothReference> FitCheckpoint::LoadReference(
+    int body_vertices, int cloth_vertices) const {
+  const std::string path = folder_ + kReference;
+  if (!kept() || !std::filesystem::exists(path)) return std::nullopt;
+  const Npz npz = ReadNpz(path);
+  return ClothReference{
+      FromRows(npz, "body", body_vertices),
+      {FromRows(npz, "x", cloth_vertices), FromRows(npz, "v", cloth_vertices)}};
+}
+
+void FitCheckpoint::Save(const BodySequence& start) const {
+  if (!kept()) return;
+  Motion motion;
+  motion.shape = start.shape;
+  motion.poses = start.poses;
+  motion.translations = start.translations;
+  WriteMotion(folder_ + kStart, motion);
+}
+
+void FitCheckpoint::Save(const ClothReference& reference) const {
+  if (!kept()) return;
+  WriteNpz(folder_ + kReference,
+           {{"body", Rows(reference.body)},
+            {"x", Rows(reference.cloth.x)},
+            {"v", Rows(reference.cloth.v)}});
+}
+
+}  // namespace invsim

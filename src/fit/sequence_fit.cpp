@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/sequence_fit.h"
+
+#include <limits>
+
+#include "invsim/base/error.h"
+#include "invsim/base/interrupt.h"
+#include "invsim/base/stopwatch.h"
+#include "invsim/cloth/carry.h"
+#include "invsim/fit/fit_checkpoint.h"
+#include "invsim/fit/remembered_term.h"
+
+namespace invsim {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+class Fitter {
+ public:
+  Fitter(const FitScene& scene,
+         const FitOptions& options,
+         const FitObserver& observer)
+      : scene_(scene),
+        options_(options),
+        observer_(observer),
+        checkpoint_(scene.checkpoint) {}
+
+  FitResult Run();
+
+ private:
+  bool TimeIsUp() const {
+    return options_.time_limit > 0 && watch_.seconds() >= options_.time_limit;
+  }
+  bool MayGoOn() const { return !InterruptRequested() && !TimeIsUp(); }
+
+  void FindStart();
+  Garment CarriedGarment();
+  bool Dress();
+  void Optimize(ClothPointsTerm* term);
+  void Simulate(ClothPointsTerm* term);
+  void FindUncertain(Objective* objective);
+  void Conclude();
+
+  const FitScene& scene_;
+  const FitOptions& options_;
+  const FitObserver& observer_;
+  FitCheckpoint checkpoint_;
+  Stopwatch watch_;
+  ClothReference reference_;
+  FitResult result_;
+};
+
+// Stage 1.
+void Fitter::FindStart() {
+  const Stopwatch watch;
+  const int frames = static_cast<int>(scene_.clouds.size());
+  if (const auto kept = checkpoint_.LoadStart(frames)) {
+    result_.start = *kept;
+  } else if (scene_.start) {
+    result_.start = *scene_.start;
+  } else {
+    result_.init = InitializeBody(
+        scene_.body,
+        scene_.garment,
+        scene_.clouds,
+        options_.init,
+        scene_.seed,
+        [this](const std::string& what) {
+          return (!observer_.init || observer_.init(what)) && MayGoOn();
+        });
+    result_.start = result_.init->body;
+  }
+  if (MayGoOn()) checkpoint_.Save(result_.start);
+  result_.seconds.init = watch.seconds();
+}
+
+Garment Fitter::CarriedGarment() {
+  BodyParameters from, to;
+  to.shape = result_.start.shape;
+  try {
+    Garment garment = CarryGarment(scene_.garment,
+                                   scene_.body.Vertices(from),
+                                   scene_.body.Vertices(to),
+                                   scene_.body.faces(),
+                                   "the garment");
+    result_.carried = true;
+    return garment;
+  } catch (const InputError& error) {
+    // It can still be led there while it is simulated.
+    result_.carry_note = error.what();
+    return scene_.garment;
+  }
+}
+
+// Stage 2.
+bool Fitter::Dress() {
+  const Stopwatch watch;
+  std::vector<BodyParameters> motion;
+  for (int t = 0; t < result_.start.num_frames(); ++t)
+    motion.push_back(result_.start.Frame(t));
+  if (const auto kept = checkpoint_.LoadReference(
+          scene_.body.num_vertices(), scene_.garment.num_vertices())) {
+    reference_ = *kept;
+    return true;
+  }
+  const Garment garment = CarriedGarment();
+  RelaxationScene dressing{
+      scene_.body, garment, motion, scene_.frames_per_second};
+  if (result_.carried) dressing.garment_shape = result_.start.shape;
+  result_.relaxation = Relax(
+      dressing, options_.relaxation, scene_.simulator, observer_.relaxation);
+  result_.seconds.relaxation = watch.seconds();
+  if (result_.relaxation->status != RunStatus::kComplete) return false;
+  reference_.body = scene_.body.Vertices(motion[0]);
+  reference_.cloth = result_.relaxation->cloth;
+  checkpoint_.Save(reference_);
+  return true;
+}
+
+// Stage 3, and the uncertainty of stage 4.
+void Fitter::Optimize(ClothPointsTerm* term) {
+  std::unique_ptr<RememberedTerm> remembered;
+  if (checkpoint_.kept())
+    remembered =
+        std::make_unique<RememberedTerm>(term, checkpoint_.evaluations());
+  Objective objective(
+      options_.priors,
+      FreeParameters{},
+      remembered ? static_cast<DataTerm*>(remembered.get()) : term,
+      &result_.body);
+  const Stopwatch watch;
+  const auto observer = [&](const IterationRecord& record) {
+    const bool wanted = !observer_.iteration || observer_.iteration(record);
+    const bool written = !remembered || remembered->error().empty();
+    return wanted && written && MayGoOn();
+  };
+  result_.optimizer = options_.optimizers.at(options_.optimizer)
+                          ->Make()
+                          ->Run(&objective, observer);
+  result_.seconds.optimization = watch.seconds();
+  if (remembered) {
+    result_.recalled = remembered->recalled();
+    if (!remembered->error().empty()) throw InputError(remembered->error());
+  }
+  if (result_.optimizer->usable() && options_.uncertainty && MayGoOn())
+    FindUncertain(&objective);
+}
+
+void Fitter::FindUncertain(Objective* objective) {
+  const Stopwatch watch;
+  result_.uncertainty = FindUncertainty(options_.priors, objective);
+  result_.seconds.uncertainty = watch.seconds();
+}
+
+// Stage 4.
+void Fitter::Simulate(ClothPointsTerm* term) {
+  const Stopwatch watch;
+  std::vector<double> costs;
+  term->rollout().set_on_frame(observer_.frame);
+  result_.simulated =
+      term->Evaluate(result_.body, kNoLimit, &costs) == Evaluation::kDone;
+  if (result_.simulated) result_.costs = term->costs();
+  result_.seconds.final_simulation = watch.seconds();
+}
+
+void Fitter::Conclude() {
+  result_.termination = Termination::kConverged;
+  result_.reason = "The initialisation is done.";
+  if (result_.optimizer) {
+    result_.termination = result_.optimizer->termination;
+    result_.reason = result_.optimizer->reason;
+  }
+  if (!result_.simulated) {
+    result_.termination = Termination::kFailed;
+    result_.reason = "The garment cannot be simulated on the body found.";
+  }
+  // Who stopped early was told to.
+  const bool early = result_.termination == Termination::kInterrupted ||
+                     !result_.simulated || !result_.optimizer;
+  if (InterruptRequested()) {
+    result_.termination = Termination::kInterrupted;
+    result_.reason = "Interrupted.";
+  } else if (early && TimeIsUp() && result_.simulated) {
+    result_.termination = Termination::kTimeLimit;
+    result_.reason = "The time limit was reached.";
+  }
+}
+
+FitResult Fitter::Run() {
+  FindStart();
+  result_.body = result_.start;
+  if (!InterruptRequested() && Dress()) {
+    ClothPointsTerm term(scene_.body,
+                         scene_.simulator,
+                         scene_.garment.faces,
+                         VertexAreas(scene_.garment),
+                         scene_.clouds,
+                         scene_.frames_per_second,
+                         reference_,
+                         options_.data);
+    if (scene_.optimize && MayGoOn()) Optimize(&term);
+    for (PoseVector& pose : result_.body.poses) Canonicalize(&pose);
+    if (!InterruptRequested()) Simulate(&term);
+    result_.stats = term.stats();
+  }
+  Conclude();
+  return std::move(result_);
+}
+
+}  // namespace
+
+FitOptions::FitOptions() {
+  for (const std::string& name : Optimizers().names())
+    optimizers[name] = Optimizers().Choose(name);
+}
+
+void Describe(OptionTable* table, FitOptions* o) {
+  table->AddSection("init", &o->init);
+  table->AddSection("relaxation", &o->relaxation);
+  table->AddSection("data", &o->data);
+  table->AddSection("priors", &o->priors);
+  table->Add("fit.optimizer",
+             &o->optimizer,
+             {.doc = "what moves the body", .choices = Optimizers().names()});
+  table->Add("fit.uncertainty",
+             &o->uncertainty,
+             {.doc = "whether the covariance of the unknowns is found"});
+  table->Add("fit.time_limit",
+             &o->time_limit,
+             {.doc = "end with what there is after this time; 0: never",
+              .unit = "s",
+              .at_least = 0});
+  for (const std::string& name : Optimizers().names())
+    table->AddSection(name, o->optimizers.at(name).get());
+}
+
+FitResult FitSequence(const FitScene& scene,
+                      const FitOptions& options,
+                      const FitObserver& observer) {
+  return Fitter(scene, options, observer).Run();
+}
+
+}  // namespace invsim

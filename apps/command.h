@@ -78,6 +78,7 @@ class Command {
 };
 
 // One function per command_NAME.cpp; main.cpp lists them.
+std::unique_ptr<Command> MakeCompareCommand();
 std::unique_ptr<Command> MakeFitCommand();
 std::unique_ptr<Command> MakeInitCommand();
 std::unique_ptr<Command> MakeInspectCommand();

@@ -231,8 +231,8 @@ FitObserver FitCommand::Observer(const FitData& data,
     progress->Relaxation(f);
   };
   const int iterations = Iterations();
-  observer.iteration = [=](const IterationRecord& record) {
-    progress->Iteration(record, iterations);
+  observer.iteration = [=](const FitIteration& iteration) {
+    progress->Iteration(iteration.record, iterations);
     return true;
   };
   observer.frame = [=, &data](const SimulatedFrame& f) {
@@ -280,10 +280,10 @@ ExitCode FitCommand::Run(const CommandContext& context) {
                  &simulator,
                  data.clouds,
                  input_.frames_per_second,
-                 data.start,
-                 optimize_,
-                 static_cast<std::uint64_t>(context.run.seed),
-                 folder.Checkpoint()};
+                 data.start};
+  scene.optimize = optimize_;
+  scene.seed = static_cast<std::uint64_t>(context.run.seed);
+  scene.checkpoint = folder.Checkpoint();
   FitProgress progress(context.verbosity < 0, report.frames);
   report.result = FitSequence(scene, fit_, Observer(data, &progress, &writer));
   progress.End();

@@ -7,6 +7,7 @@
 
 int main(int argc, char** argv) {
   std::vector<std::unique_ptr<invsim::Command>> commands;
+  commands.push_back(invsim::MakeCompareCommand());
   commands.push_back(invsim::MakeFitCommand());
   commands.push_back(invsim::MakeInitCommand());
   commands.push_back(invsim::MakeInspectCommand());

@@ -21,8 +21,12 @@ class Recorder : public ceres::IterationCallback {
  public:
   Recorder(Objective* objective,
            const IterationObserver* observer,
-           bool monotone)
-      : objective_(objective), observer_(observer), monotone_(monotone) {}
+           bool monotone,
+           int most_refused)
+      : objective_(objective),
+        observer_(observer),
+        monotone_(monotone),
+        most_refused_(most_refused) {}
 
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& summary) override {
@@ -41,21 +45,29 @@ class Recorder : public ceres::IterationCallback {
     if (record.successful) failed_at_success_ = record.counts.failed;
     records.push_back(record);
     if (monotone_) objective_->SetCostLimit(cost_);
-    if (!*observer_ || (*observer_)(record)) return ceres::SOLVER_CONTINUE;
-    stopped = true;
-    return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    if (*observer_ && !(*observer_)(record)) {
+      stopped = true;
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    }
+    refused_ = record.successful ? 0 : refused_ + 1;
+    exhausted = most_refused_ > 0 && refused_ >= most_refused_;
+    return exhausted ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                     : ceres::SOLVER_CONTINUE;
   }
 
   // Failed evaluations up to the last successful step.
   int failed_at_success() const { return failed_at_success_; }
 
   std::vector<IterationRecord> records;
-  bool stopped = false;
+  bool stopped = false;    // by the observer
+  bool exhausted = false;  // too many refused steps in a row
 
  private:
   Objective* objective_;
   const IterationObserver* observer_;
   bool monotone_;
+  int most_refused_;
+  int refused_ = 0;
   Stopwatch watch_;
   double cost_ = kNoLimit;
   CostTerms terms_;
@@ -71,6 +83,7 @@ Termination Classify(const ceres::Solver::Summary& summary,
   // be evaluated any more.
   if (started && objective.counts().failed > recorder.failed_at_success())
     return Termination::kStalled;
+  if (started && recorder.exhausted) return Termination::kConverged;
   if (!summary.IsSolutionUsable()) return Termination::kFailed;
   if (summary.termination_type == ceres::CONVERGENCE)
     return Termination::kConverged;
@@ -80,7 +93,7 @@ Termination Classify(const ceres::Solver::Summary& summary,
 class CeresOptimizer : public Optimizer {
  public:
   CeresOptimizer(const CeresOptions& options, ceres::Solver::Options solver)
-      : solver_(std::move(solver)) {
+      : solver_(std::move(solver)), refused_steps_(options.refused_steps) {
     solver_.max_num_iterations = options.iterations;
     solver_.function_tolerance = options.function_tolerance;
     solver_.parameter_tolerance = options.parameter_tolerance;
@@ -89,6 +102,8 @@ class CeresOptimizer : public Optimizer {
     solver_.max_solver_time_in_seconds = kNoLimit;
     solver_.logging_type = ceres::SILENT;
     solver_.num_threads = 1;
+    // Observers look at the objective's x.
+    solver_.update_state_every_iteration = true;
   }
 
   OptimizerSummary Run(Objective* objective,
@@ -99,7 +114,7 @@ class CeresOptimizer : public Optimizer {
     solver.linear_solver_type = objective->x()->num_frames() <= kDenseFrames
                                     ? ceres::DENSE_QR
                                     : ceres::SPARSE_NORMAL_CHOLESKY;
-    Recorder recorder(objective, &observer, monotone);
+    Recorder recorder(objective, &observer, monotone, refused_steps_);
     solver.callbacks.push_back(&recorder);
     objective->SetCostLimit(kNoLimit);
     ceres::Solver::Summary summary;
@@ -108,7 +123,10 @@ class CeresOptimizer : public Optimizer {
 
     OptimizerSummary result;
     result.termination = Classify(summary, *objective, recorder);
-    result.reason = summary.message;
+    result.reason = recorder.exhausted
+                        ? std::to_string(refused_steps_) +
+                              " steps in a row did not lower the cost."
+                        : summary.message;
     result.initial_cost = summary.initial_cost;
     result.final_cost = summary.final_cost;
     result.seconds = watch.seconds();
@@ -120,6 +138,7 @@ class CeresOptimizer : public Optimizer {
 
  private:
   ceres::Solver::Options solver_;
+  int refused_steps_;
 };
 
 }  // namespace
@@ -138,6 +157,11 @@ void Describe(OptionTable* table, CeresOptions* o) {
       "gradient_tolerance",
       &o->gradient_tolerance,
       {.doc = "done when no gradient component is larger", .at_least = 0});
+  table->Add("refused_steps",
+             &o->refused_steps,
+             {.doc = "done when so many steps in a row do not lower the cost; "
+                     "0: go on",
+              .at_least = 0});
   table->Add(
       "radius", &o->radius, {.doc = "first trust region radius", .above = 0});
 }

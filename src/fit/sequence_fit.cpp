@@ -46,7 +46,6 @@ class Fitter {
   const FitObserver& observer_;
   FitCheckpoint checkpoint_;
   Stopwatch watch_;
-  ClothReference reference_;
   FitResult result_;
 };
 
@@ -98,11 +97,10 @@ bool Fitter::Dress() {
   std::vector<BodyParameters> motion;
   for (int t = 0; t < result_.start.num_frames(); ++t)
     motion.push_back(result_.start.Frame(t));
-  if (const auto kept = checkpoint_.LoadReference(
-          scene_.body.num_vertices(), scene_.garment.num_vertices())) {
-    reference_ = *kept;
-    return true;
-  }
+  result_.reference = checkpoint_.LoadReference(scene_.body.num_vertices(),
+                                                scene_.garment.num_vertices());
+  if (!result_.reference) result_.reference = scene_.reference;
+  if (result_.reference) return true;
   const Garment garment = CarriedGarment();
   RelaxationScene dressing{
       scene_.body, garment, motion, scene_.frames_per_second};
@@ -111,9 +109,9 @@ bool Fitter::Dress() {
       dressing, options_.relaxation, scene_.simulator, observer_.relaxation);
   result_.seconds.relaxation = watch.seconds();
   if (result_.relaxation->status != RunStatus::kComplete) return false;
-  reference_.body = scene_.body.Vertices(motion[0]);
-  reference_.cloth = result_.relaxation->cloth;
-  checkpoint_.Save(reference_);
+  result_.reference = {scene_.body.Vertices(motion[0]),
+                       result_.relaxation->cloth};
+  checkpoint_.Save(*result_.reference);
   return true;
 }
 
@@ -130,7 +128,10 @@ void Fitter::Optimize(ClothPointsTerm* term) {
       &result_.body);
   const Stopwatch watch;
   const auto observer = [&](const IterationRecord& record) {
-    const bool wanted = !observer_.iteration || observer_.iteration(record);
+    const bool wanted =
+        !observer_.iteration ||
+        observer_.iteration(
+            {record, result_.body, term->rollout().stats().substeps});
     const bool written = !remembered || remembered->error().empty();
     return wanted && written && MayGoOn();
   };
@@ -196,7 +197,7 @@ FitResult Fitter::Run() {
                          VertexAreas(scene_.garment),
                          scene_.clouds,
                          scene_.frames_per_second,
-                         reference_,
+                         *result_.reference,
                          options_.data);
     if (scene_.optimize && MayGoOn()) Optimize(&term);
     for (PoseVector& pose : result_.body.poses) Canonicalize(&pose);

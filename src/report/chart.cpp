@@ -30,16 +30,20 @@ struct Range {
 };
 
 // What is drawn: the value or its logarithm; NaN is left out.
-double Drawn(const Chart& chart, double value) {
-  if (!std::isfinite(value) || (chart.log_y && value <= 0)) return NAN;
-  return chart.log_y ? std::log10(value) : value;
+double Drawn(bool log, double value) {
+  if (!std::isfinite(value) || (log && value <= 0)) return NAN;
+  return log ? std::log10(value) : value;
+}
+
+const std::vector<double>& XOf(const Chart& chart, const ChartSeries& series) {
+  return series.x.empty() ? chart.x : series.x;
 }
 
 Range YRange(const Chart& chart) {
   Range y;
   for (const ChartSeries& s : chart.series)
     for (const double value : s.values) {
-      const double drawn = Drawn(chart, value);
+      const double drawn = Drawn(chart.log_y, value);
       if (!std::isnan(drawn)) y.Take(drawn);
     }
   if (y.empty()) return {0, 1};
@@ -51,7 +55,14 @@ Range YRange(const Chart& chart) {
 
 Range XRange(const Chart& chart) {
   Range x;
-  for (const double value : chart.x) x.Take(value);
+  const auto take = [&](const std::vector<double>& values) {
+    for (const double value : values) {
+      const double drawn = Drawn(chart.log_x, value);
+      if (!std::isnan(drawn)) x.Take(drawn);
+    }
+  };
+  take(chart.x);
+  for (const ChartSeries& series : chart.series) take(series.x);
   if (x.empty()) return {0, 1};
   if (x.high == x.low) x.high = x.low + 1;
   return x;
@@ -102,8 +113,11 @@ class Plot {
            "end",
            ShortNumber(chart_.log_y ? std::pow(10, drawn) : drawn));
     }
-    Text(kLeft, kBottom + 15, "start", ShortNumber(x_.low));
-    Text(kRight, kBottom + 15, "end", ShortNumber(x_.high));
+    const auto x_text = [this](double drawn) {
+      return ShortNumber(chart_.log_x ? std::pow(10, drawn) : drawn);
+    };
+    Text(kLeft, kBottom + 15, "start", x_text(x_.low));
+    Text(kRight, kBottom + 15, "end", x_text(x_.high));
     Text(0.5 * (kLeft + kRight), kBottom + 15, "middle", chart_.x_title);
   }
 
@@ -112,14 +126,16 @@ class Plot {
     out_ << "<path fill=\"none\" stroke=\"" << kColors[k % 4]
          << "\" stroke-width=\"1.5\" d=\"";
     bool pen_down = false;
-    const size_t n = std::min(chart_.x.size(), series.values.size());
+    const std::vector<double>& all_x = XOf(chart_, series);
+    const size_t n = std::min(all_x.size(), series.values.size());
     for (size_t i = 0; i < n; ++i) {
-      const double drawn = Drawn(chart_, series.values[i]);
-      if (std::isnan(drawn)) {
+      const double x = Drawn(chart_.log_x, all_x[i]);
+      const double y = Drawn(chart_.log_y, series.values[i]);
+      if (std::isnan(x) || std::isnan(y)) {
         pen_down = false;
         continue;
       }
-      out_ << (pen_down ? "L" : "M") << X(chart_.x[i]) << " " << Y(drawn);
+      out_ << (pen_down ? "L" : "M") << X(x) << " " << Y(y);
       pen_down = true;
     }
     out_ << "\"/>";
@@ -143,6 +159,19 @@ class Plot {
 }  // namespace
 
 std::string FormatSvg(const Chart& chart) { return Plot(chart).Draw(); }
+
+std::string StandaloneSvg(const Chart& chart) {
+  std::string svg = FormatSvg(chart);
+  const std::string open = "<svg ";
+  svg.replace(0,
+              open.size(),
+              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" ");
+  const size_t inside = svg.find('>') + 1;
+  svg.insert(inside,
+             "<style>text{font:11px sans-serif}.grid{stroke:#ddd}</style>"
+             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>");
+  return svg + "\n";
+}
 
 std::string EscapeHtml(const std::string& text) {
   std::string escaped;

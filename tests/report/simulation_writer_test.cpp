@@ -103,7 +103,7 @@ TEST_F(SimulationWriterTest, KeepsTheFramesDoneAndThinsThosePictured) {
 
 TEST_F(SimulationWriterTest, WithoutAnyFrameStillSaysWhy) {
   const RunFolder folder(root_.string(), false);
-  SimulationWriter writer(folder, sheet_, material_, body_.faces(), 4, 30, {});
+  FrameWriter writer(folder, sheet_, material_, body_.faces(), 4, 30, {});
   SimulationReport report;
   report.frames_wanted = 4;
   report.relaxation.status = RunStatus::kFailed;

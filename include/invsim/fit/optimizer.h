@@ -55,7 +55,8 @@ struct OptimizerSummary {
   bool usable() const { return termination != Termination::kFailed; }
 };
 
-// Called after every iteration. A false answer asks to stop.
+// Called after every iteration, with the point kept in objective->x(). A false
+// answer asks to stop.
 using IterationObserver = std::function<bool(const IterationRecord&)>;
 
 class Optimizer {
@@ -71,7 +72,10 @@ struct CeresOptions {
   double function_tolerance = 1e-4;   // |change of cost| / cost
   double parameter_tolerance = 1e-8;  // |step| / |x|
   double gradient_tolerance = 1e-10;  // largest component
-  double radius = 1e4;                // first trust region
+  // Trust region only: nearest points and contacts make the cost rough on a
+  // small scale, on which no step helps and each costs a whole simulation.
+  int refused_steps = 3;
+  double radius = 1e4;  // first trust region
 };
 void Describe(OptionTable* table, CeresOptions* options);
 

@@ -55,19 +55,27 @@ struct FitScene {
   Simulator* simulator;
   const std::vector<Points>& clouds;  // one per frame, metres, y up
   double frames_per_second;
-  // Where to start instead of stage 1.
-  std::optional<BodySequence> start;
+  // Where to start instead of stages 1 and 2.
+  std::optional<BodySequence> start = {};
+  std::optional<ClothReference> reference = {};
   // False: stages 1, 2 and 4 only.
   bool optimize = true;
   std::uint64_t seed = 0;
-  std::string checkpoint;  // an existing folder; "": none
+  std::string checkpoint = "";  // an existing folder; "": none
+};
+
+// An iteration of stage 3 and the point kept after it.
+struct FitIteration {
+  const IterationRecord& record;
+  const BodySequence& body;
+  long steps;  // of simulation, since stage 3 began
 };
 
 // Told what goes on; any may be empty. Answers of false ask for a stop.
 struct FitObserver {
   InitObserver init;
   RelaxationCallback relaxation;
-  IterationObserver iteration;
+  std::function<bool(const FitIteration&)> iteration;
   // Frames of the final simulation, in order.
   FrameCallback frame;
 };
@@ -87,7 +95,9 @@ struct FitResult {
   std::string reason;      // one sentence
   bool simulated = false;  // whether there is cloth, that is stage 4 was done
 
-  BodySequence start;  // what the optimiser was given
+  // What the optimiser was given.
+  BodySequence start;
+  std::optional<ClothReference> reference;
   BodySequence body;
   std::optional<BodyInit> init;
   bool carried = false;    // the garment, to the shape of `start`

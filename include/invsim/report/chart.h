@@ -11,7 +11,8 @@ namespace invsim {
 
 struct ChartSeries {
   std::string name;
-  std::vector<double> values;  // one per entry of Chart::x
+  std::vector<double> values;  // one per entry of x
+  std::vector<double> x = {};  // empty: that of the chart
 };
 
 struct Chart {
@@ -20,12 +21,16 @@ struct Chart {
   std::vector<double> x;
   std::vector<ChartSeries> series;
   bool log_y = false;  // values of zero and less are then left out
+  bool log_x = false;  // likewise
 };
 
 // An <svg> element. It carries data-x0 and data-x1, the first and last x, and a
 // hidden line of class `cursor` for a script to move over it. Values that are
 // not finite are left out.
 std::string FormatSvg(const Chart& chart);
+
+// The same as a file of its own, readable without a page's styles.
+std::string StandaloneSvg(const Chart& chart);
 
 // Text with & < > " escaped, for HTML and SVG.
 std::string EscapeHtml(const std::string& text);

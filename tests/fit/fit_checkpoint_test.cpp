@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/fit_checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "invsim/base/error.h"
+#include "invsim/base/random.h"
+
+namespace invsim {
+namespace {
+
+Points RandomPoints(int n, Random* random) {
+  Points points(3, n);
+  for (double& value : points.reshaped()) value = random->Normal();
+  return points;
+}
+
+TEST(FitCheckpoint, GivesBackEveryBit) {
+  Random random(1);
+  BodySequence start;
+  for (double& b : start.shape) b = random.Normal();
+  for (int t = 0; t < 4; ++t) {
+    BodyParameters p;
+    for (double& angle : p.pose) angle = random.Normal();
+    p.translation = RandomPoints(1, &random);
+    start.Append(p);
+  }
+  const ClothReference reference{
+      RandomPoints(7, &random),
+      {RandomPoints(5, &random), RandomPoints(5, &random)}};
+  const FitCheckpoint checkpoint(::testing::TempDir());
+  checkpoint.Save(start);
+  checkpoint.Save(reference);
+  const auto start2 = checkpoint.LoadStart(4);
+  const auto reference2 = checkpoint.LoadReference(7, 5);
+  ASSERT_TRUE(start2 && reference2);
+  EXPECT_EQ(start2->shape, start.shape);
+  EXPECT_EQ(start2->poses, start.poses);
+  EXPECT_EQ(start2->translations, start.translations);
+  EXPECT_EQ(reference2->body, reference.body);
+  EXPECT_EQ(reference2->cloth.x, reference.cloth.x);
+  EXPECT_EQ(reference2->cloth.v, reference.cloth.v);
+  EXPECT_THROW(checkpoint.LoadStart(5), InputError);
+  EXPECT_THROW(checkpoint.LoadReference(7, 6), InputError);
+}
+
+TEST(FitCheckpoint, FindsNothingWhereNothingIsKept) {
+  const FitCheckpoint none("");
+  none.Save(BodySequence{});
+  EXPECT_FALSE(none.LoadStart(0));
+  EXPECT_FALSE(none.LoadReference(1, 1));
+}
+
+}  // namespace
+}  // namespace invsim

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/remembered_term.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "invsim/base/error.h"
+#include "invsim/base/random.h"
+#include "invsim/fit/optimizer.h"
+#include "invsim/io/file.h"
+#include "toy_term.h"
+
+namespace invsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+BodySequence Constant(double value) {
+  BodySequence x;
+  x.shape.setConstant(value);
+  for (int t = 0; t < 3; ++t) {
+    BodyParameters p;
+    p.pose.setConstant(value);
+    p.translation.setConstant(value);
+    x.Append(p);
+  }
+  return x;
+}
+
+class RememberedTermTest : public ::testing::Test {
+ protected:
+  RememberedTermTest()
+      : path_((fs::path(::testing::TempDir()) /
+               ::testing::UnitTest::GetInstance()->current_test_info()->name())
+                  .string()) {
+    fs::remove(path_);
+  }
+  ~RememberedTermTest() override { fs::remove(path_); }
+
+  // A whole optimisation; the observer stops it after `most` iterations.
+  BodySequence Optimize(ToyTerm* toy, int most) {
+    RememberedTerm term(toy, path_);
+    BodySequence x = Constant(0);
+    Objective objective({}, {}, &term, &x);
+    MakeLevenbergMarquardt({})->Run(&objective, [&](const IterationRecord& i) {
+      return i.iteration < most;
+    });
+    EXPECT_EQ(term.error(), "");
+    return x;
+  }
+
+  std::string path_;
+};
+
+TEST_F(RememberedTermTest, AsksTheInnerTermOncePerPoint) {
+  ToyTerm toy(Constant(0.2));
+  RememberedTerm term(&toy, path_);
+  std::vector<double> costs, again;
+  EXPECT_EQ(term.Evaluate(Constant(0.1), kNoLimit, &costs), Evaluation::kDone);
+  term.Evaluate(Constant(0.3), kNoLimit, &again);
+  EXPECT_EQ(term.Evaluate(Constant(0.1), kNoLimit, &again), Evaluation::kDone);
+  EXPECT_EQ(costs, again);
+  EXPECT_EQ(toy.evaluations, 2);
+}
+
+TEST_F(RememberedTermTest, KeepsBlocksBitForBit) {
+  ToyTerm toy(Constant(0.2));
+  std::vector<double> costs;
+  std::vector<FrameBlock> first, second;
+  {
+    RememberedTerm term(&toy, path_);
+    term.Evaluate(Constant(0.1), kNoLimit, &costs);
+    ASSERT_TRUE(term.Linearize(&first));
+  }
+  RememberedTerm term(&toy, path_);
+  EXPECT_EQ(term.known(), 1);
+  term.Evaluate(Constant(0.1), kNoLimit, &costs);
+  ASSERT_TRUE(term.Linearize(&second));
+  EXPECT_EQ(toy.evaluations, 1);
+  ASSERT_EQ(second.size(), first.size());
+  for (size_t t = 0; t < first.size(); ++t) {
+    EXPECT_EQ(first[t].cost, second[t].cost);
+    EXPECT_EQ(first[t].residual, second[t].residual);
+    EXPECT_EQ(first[t].jacobian, second[t].jacobian);
+  }
+}
+
+// The derivative at a point that was evaluated before the process ended.
+TEST_F(RememberedTermTest, LinearizesWhereOnlyTheCostIsKnown) {
+  ToyTerm toy(Constant(0.2));
+  std::vector<double> costs;
+  { RememberedTerm(&toy, path_).Evaluate(Constant(0.1), kNoLimit, &costs); }
+  RememberedTerm term(&toy, path_);
+  term.Evaluate(Constant(0.1), kNoLimit, &costs);
+  std::vector<FrameBlock> blocks;
+  ASSERT_TRUE(term.Linearize(&blocks));
+  EXPECT_NEAR(blocks[0].cost, costs[0], 1e-12 * costs[0]);
+}
+
+TEST_F(RememberedTermTest, AnAbandonedPointIsWorseThanItsLimitOnly) {
+  ToyTerm toy(Constant(0.2));
+  RememberedTerm term(&toy, path_);
+  std::vector<double> costs;
+  EXPECT_EQ(term.Evaluate(Constant(5), 1e-3, &costs), Evaluation::kAbandoned);
+  EXPECT_EQ(term.Evaluate(Constant(5), 1e-4, &costs), Evaluation::kAbandoned);
+  EXPECT_EQ(toy.evaluations, 1);
+  EXPECT_EQ(term.Evaluate(Constant(5), kNoLimit, &costs), Evaluation::kDone);
+  EXPECT_EQ(toy.evaluations, 2);
+}
+
+TEST_F(RememberedTermTest, AResumedFitEndsInTheSameNumbers) {
+  ToyTerm toy(Constant(0.2));
+  const BodySequence whole = Optimize(&toy, 100);
+  const int evaluations = toy.evaluations;
+  fs::remove(path_);
+  ToyTerm other(Constant(0.2));
+  Optimize(&other, 2);
+  const int before = other.evaluations;
+  const BodySequence resumed = Optimize(&other, 100);
+  EXPECT_EQ(resumed.shape, whole.shape);
+  EXPECT_EQ(resumed.poses, whole.poses);
+  EXPECT_EQ(resumed.translations, whole.translations);
+  EXPECT_LT(before, evaluations);
+  EXPECT_LE(other.evaluations, evaluations + 1);
+}
+
+// However the file was cut, what is whole in front of the cut is used.
+TEST_F(RememberedTermTest, SurvivesACutAtAnyPlace) {
+  ToyTerm toy(Constant(0.2));
+  const BodySequence whole = Optimize(&toy, 100);
+  const std::string bytes = ReadFileBytes(path_);
+  Random random(3);
+  for (int k = 0; k < 20; ++k) {
+    WriteFileBytes(
+        path_, bytes.substr(0, random.Index(static_cast<int>(bytes.size()))));
+    const BodySequence resumed = Optimize(&toy, 100);
+    EXPECT_EQ(resumed.shape, whole.shape);
+    EXPECT_EQ(resumed.poses, whole.poses);
+    EXPECT_EQ(ReadFileBytes(path_), bytes);
+  }
+}
+
+TEST_F(RememberedTermTest, ADamagedRecordIsNotBelieved) {
+  ToyTerm toy(Constant(0.2));
+  const BodySequence whole = Optimize(&toy, 100);
+  std::string bytes = ReadFileBytes(path_);
+  bytes[bytes.size() / 2] ^= 1;
+  WriteFileBytes(path_, bytes);
+  EXPECT_EQ(Optimize(&toy, 100).shape, whole.shape);
+}
+
+TEST_F(RememberedTermTest, RefusesAnotherFile) {
+  WriteFileBytes(path_, "something else entirely");
+  ToyTerm toy(Constant(0.2));
+  try {
+    RememberedTerm term(&toy, path_);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(path_));
+  }
+}
+
+// /dev/full fails every write.
+TEST_F(RememberedTermTest, SaysSoWhenTheDiskIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  ToyTerm toy(Constant(0.2));
+  try {
+    RememberedTerm term(&toy, "/dev/full");
+    std::vector<double> costs;
+    EXPECT_EQ(term.Evaluate(Constant(0.1), kNoLimit, &costs),
+              Evaluation::kDone);
+    EXPECT_THAT(term.error(), ::testing::HasSubstr("/dev/full"));
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("/dev/full"));
+  }
+}
+
+}  // namespace
+}  // namespace invsim

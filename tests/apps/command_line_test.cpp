@@ -70,7 +70,7 @@ TEST_F(CommandLineTest, EveryCommandTakesTheCommonFlags) {
 }
 
 TEST_F(CommandLineTest, UsageErrorsEndWithTwo) {
-  ExpectFailure("", 2, "no command: expected one of inspect");
+  ExpectFailure("", 2, "no command: expected one of ");
   ExpectFailure(
       "inspekt x", 2, "unknown command 'inspekt'; did you mean 'inspect'?");
   ExpectFailure("inspect", 2, "PATH is required");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// invsim synth: writes what is embedded to files, to start from or to look at.
+// invsim synth: writes what is embedded to files, to start from or to look at,
+// and makes sequences of measured points with known truth.
+
+#include <unistd.h>
 
 #include <filesystem>
 #include <iostream>
@@ -8,8 +11,13 @@
 #include "command.h"
 #include "inputs.h"
 #include "invsim/base/error.h"
+#include "invsim/base/interrupt.h"
+#include "invsim/base/logging.h"
 #include "invsim/base/names.h"
-#include "invsim/io/obj.h"
+#include "invsim/base/progress.h"
+#include "invsim/cloth/named_materials.h"
+#include "invsim/report/chart.h"
+#include "invsim/study/clothed_sequence.h"
 
 namespace invsim {
 namespace {
@@ -26,25 +34,24 @@ void Describe(OptionTable* table, SynthOptions* o) {
   table->Add(
       "garment",
       &o->garment,
-      {.doc = "which garment to make", .choices = AuthoredGarmentNames()});
+      {.doc = "an authored garment; for a sequence also the path of an OBJ"});
   Describe(table, &o->authored);
   Describe(table, &o->motion);
-}
-
-void WriteGarment(const std::string& path, const Garment& garment) {
-  WriteObj(path,
-           {garment.placed, garment.faces, garment.rest, garment.rest_faces});
 }
 
 class SynthCommand : public Command {
  public:
   std::string name() const override { return "synth"; }
   std::string doc() const override {
-    return "write the embedded body, a garment made to measure, or a motion";
+    return "write the embedded body, a garment made to measure, a motion, or "
+           "a sequence of measured points with its truth";
   }
   void AddArguments(CLI::App* app, KeyFlags* flags) override;
   void AddOptions(OptionTable* table) override {
     table->AddSection("synth", &options_);
+    Describe(table, &physics_);
+    table->AddSection("relaxation", &sequence_.relaxation);
+    table->AddSection("measurement", &sequence_.measurement);
   }
   ExitCode Run(const CommandContext& context) override;
 
@@ -52,28 +59,38 @@ class SynthCommand : public Command {
   // The file written if --out does not say.
   std::string DefaultFile() const;
   std::string Write(const std::string& path) const;
+  ExitCode WriteSequence(const CommandContext& context);
 
   std::string what_;
   std::string name_;
   SynthOptions options_;
+  SceneOptions physics_;
+  ClothedSequenceOptions sequence_;
   bool force_ = false;
 };
 
 void SynthCommand::AddArguments(CLI::App* app, KeyFlags* flags) {
-  app->add_option("WHAT", what_, "body, garment or motion")->required();
+  app->add_option("WHAT", what_, "body, garment, motion or sequence")
+      ->required();
   app->add_option("--name", name_, "of the garment or the motion")
       ->option_text("NAME");
-  flags->Add("--body", "synth.body", "round which the garment is made");
+  flags->Add("--body", "synth.body", "mannequin or an SMPL-layout npz");
+  flags->Add("--garment", "synth.garment", "authored, or an OBJ");
+  flags->Add("--motion", "synth.motion", "embedded or an AMASS npz");
+  flags->Add("--material", "scene.material", "of a sequence");
+  flags->Add("--points", "measurement.points", "of a sequence, per frame");
+  flags->Add("--noise", "measurement.noise", "of a sequence, m");
   flags->Add("--edge", "synth.edge", "edge length of the garment, m");
   flags->Add("--ease", "synth.ease", "distance from the skin, m");
   flags->Add("--frames", "synth.frames", "of the motion");
   flags->Add("--fps", "synth.frames_per_second", "of the motion");
-  app->add_flag("--force", force_, "overwrite the file");
+  app->add_flag("--force", force_, "overwrite the file or sequence");
 }
 
 std::string SynthCommand::DefaultFile() const {
   if (what_ == "body") return "mannequin.npz";
   if (what_ == "garment") return options_.garment + ".obj";
+  if (what_ == "sequence") return "invsim_sequence";
   return options_.motion.name + ".npz";
 }
 
@@ -96,12 +113,68 @@ std::string SynthCommand::Write(const std::string& path) const {
   return std::to_string(motion.num_frames()) + " frames";
 }
 
+ExitCode SynthCommand::WriteSequence(const CommandContext& context) {
+  const InterruptGuard interrupt;
+  const std::string path = context.out.empty() ? DefaultFile() : context.out;
+  const BodyModel body = LoadBody(options_.body);
+  const Garment garment =
+      LoadGarment(options_.garment, body, options_.authored);
+  CheckGarmentFits(garment, body, ShapeVector::Zero(), options_.garment);
+  const Motion motion = LoadMotion(options_.motion, body);
+  const Material material = FindMaterial(physics_.material);
+  UseMaterialFriction(*context.options, material, &physics_);
+  sequence_.seed = static_cast<std::uint64_t>(context.run.seed);
+  sequence_.config = ResolvedToml(*context.options);
+  sequence_.force = force_;
+  std::ostream* log = context.verbosity < 0 ? nullptr : &std::cerr;
+  std::string title;
+  std::unique_ptr<Progress> progress;
+  const ClothedSequenceResult made = MakeClothedSequence(
+      {body,
+       garment,
+       material,
+       motion,
+       {options_.body, options_.motion.name, options_.garment}},
+      physics_,
+      sequence_,
+      path,
+      [&](const char* what, int, int total, const FrameStats&) {
+        if (title != what) {
+          progress.reset();
+          progress = std::make_unique<Progress>(
+              log, StyleFor(STDERR_FILENO), what, total);
+          title = what;
+        }
+        progress->Advance();
+      });
+  progress.reset();
+  if (made.status() == RunStatus::kInterrupted) return ExitCode::kInterrupted;
+  if (made.status() == RunStatus::kFailed) {
+    LOG(ERROR) << path << ": the simulation failed; nothing was written";
+    return ExitCode::kFailed;
+  }
+  const StepStats& steps = made.sequence.stats.step;
+  if (steps.missed > 0)
+    LOG(WARNING) << steps.missed << " of " << steps.substeps
+                 << " steps missed the contact tolerance";
+  if (!made.relaxation.at_rest)
+    LOG(WARNING) << "the cloth was not at rest when the sequence began";
+  std::cout << path << ": " << motion.num_frames() << " frames of "
+            << sequence_.measurement.points << " points, "
+            << garment.num_vertices() << " cloth vertices, penetration "
+            << ShortNumber(1000 * made.sequence.stats.penetration.deepest)
+            << " mm\n";
+  return ExitCode::kOk;
+}
+
 ExitCode SynthCommand::Run(const CommandContext& context) {
-  const std::vector<std::string> kinds = {"body", "garment", "motion"};
+  const std::vector<std::string> kinds = {
+      "body", "garment", "motion", "sequence"};
   if (std::find(kinds.begin(), kinds.end(), what_) == kinds.end())
     throw UsageError(UnknownName("kind", what_, kinds));
   if (!name_.empty() && what_ == "garment") options_.garment = name_;
   if (!name_.empty() && what_ == "motion") options_.motion.name = name_;
+  if (what_ == "sequence") return WriteSequence(context);
   const std::string path = context.out.empty() ? DefaultFile() : context.out;
   if (std::filesystem::exists(path) && !force_)
     throw UsageError(path + ": exists; choose another --out, or --force");

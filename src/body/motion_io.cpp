@@ -108,7 +108,7 @@ Motion ReadMotion(const std::string& path) {
   return motion;
 }
 
-void WriteMotion(const std::string& path, const Motion& motion) {
+NpzArrays MotionArrays(const Motion& motion) {
   const std::int64_t frames = motion.num_frames();
   std::vector<double> poses;
   std::vector<double> trans;
@@ -120,14 +120,16 @@ void WriteMotion(const std::string& path, const Motion& motion) {
   }
   const double* const shape = motion.shape.data();
   const NpyArray rate = NpyArray::Doubles({}, {motion.frame_rate});
-  WriteNpz(
-      path,
-      {{"poses", NpyArray::Doubles({frames, kNumPose}, poses)},
-       {"trans", NpyArray::Doubles({frames, 3}, trans)},
-       {"betas", NpyArray::Doubles({kNumShape}, {shape, shape + kNumShape})},
-       {"gender", NpyArray::Text({}, {motion.gender})},
-       {"mocap_framerate", rate},
-       {"mocap_frame_rate", rate}});
+  return {{"poses", NpyArray::Doubles({frames, kNumPose}, poses)},
+          {"trans", NpyArray::Doubles({frames, 3}, trans)},
+          {"betas", NpyArray::Doubles({kNumShape}, {shape, shape + kNumShape})},
+          {"gender", NpyArray::Text({}, {motion.gender})},
+          {"mocap_framerate", rate},
+          {"mocap_frame_rate", rate}};
+}
+
+void WriteMotion(const std::string& path, const Motion& motion) {
+  WriteNpz(path, MotionArrays(motion));
 }
 
 }  // namespace invsim

@@ -10,6 +10,7 @@
 
 #include "invsim/body/body_model.h"
 #include "invsim/io/input_frame.h"
+#include "invsim/io/npz.h"
 
 namespace invsim {
 
@@ -40,6 +41,8 @@ Motion ReadMotion(const std::string& path);
 
 // Writes the same in 64 bits, with both names of the frame rate.
 void WriteMotion(const std::string& path, const Motion& motion);
+// What it writes, for files that hold more beside it.
+NpzArrays MotionArrays(const Motion& motion);
 
 // Turns the world about its origin: every vertex x of every frame becomes R x.
 // A root that turns about the pelvis J_0(beta) makes both of its parameters

@@ -14,11 +14,17 @@ namespace invsim {
 // A ray this long decides; longer ones would let a skirt hide the hands.
 inline constexpr double kCoverRay = 0.15;  // m
 
-// One entry per body vertex. The ray starts a little inside the skin, so that
-// cloth which lies on it is met too.
+// The ray starts `inside` the skin and ends `reach` outside it.
+struct CoverRay {
+  double inside = 0.005;  // m: cloth that lies on the skin is met too
+  double reach = kCoverRay;
+};
+
+// One entry per body vertex.
 std::vector<bool> CoveredVertices(const Points& body_vertices,
                                   const Points& body_normals,
-                                  const SurfaceIndex& cloth);
+                                  const SurfaceIndex& cloth,
+                                  const CoverRay& ray = {});
 
 }  // namespace invsim
 

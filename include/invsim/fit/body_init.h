@@ -28,7 +28,10 @@ namespace invsim {
 
 struct BodyInitOptions {
   BodyPointsOptions points;
-  PriorOptions priors;
+  // Stronger than what is true of people: cloth hides the skin in the same way
+  // in all frames, so the points say less about the shape than their number
+  // promises (docs/accuracy.md has the measurement).
+  PriorOptions priors = {.shape = 300, .pose = 10};
   int anchors = 3;
   int headings = 8;
   int coarse_points = 600;  // per frame, while searching and tracking

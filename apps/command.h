@@ -15,6 +15,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "exit_code.h"
 #include "invsim/base/config.h"
@@ -77,14 +78,18 @@ class Command {
   virtual ExitCode Run(const CommandContext& context) = 0;
 };
 
-// One function per command_NAME.cpp; main.cpp lists them.
+// One function per command_NAME.cpp.
 std::unique_ptr<Command> MakeCompareCommand();
+std::unique_ptr<Command> MakeDemoCommand();
 std::unique_ptr<Command> MakeFitCommand();
 std::unique_ptr<Command> MakeInitCommand();
 std::unique_ptr<Command> MakeInspectCommand();
 std::unique_ptr<Command> MakeListCommand();
 std::unique_ptr<Command> MakeSimulateCommand();
 std::unique_ptr<Command> MakeSynthCommand();
+
+// All of them, in alphabetical order (all_commands.cpp).
+std::vector<std::unique_ptr<Command>> AllCommands();
 
 }  // namespace invsim
 

@@ -61,6 +61,15 @@ void Cut(const MotionInput& input, Motion* motion) {
   cut(&motion->translations);
 }
 
+void SetShape(const MotionInput& input, Motion* motion) {
+  if (input.shape.empty()) return;
+  if (input.shape.size() > kNumShape)
+    throw UsageError("shape: " + std::to_string(input.shape.size()) +
+                     " numbers, expected at most " + std::to_string(kNumShape));
+  motion->shape.setZero();
+  std::copy(input.shape.begin(), input.shape.end(), motion->shape.begin());
+}
+
 }  // namespace
 
 bool IsPath(const std::string& name) {
@@ -123,6 +132,10 @@ void Describe(OptionTable* table, MotionInput* o) {
              {.doc = "the motion is resampled to it; 0: as it is",
               .unit = "1/s",
               .at_least = 0});
+  table->Add("shape",
+             &o->shape,
+             {.doc = "of the body, up to ten numbers; empty: as the motion has "
+                     "it"});
 }
 
 Motion LoadMotion(const MotionInput& input, const BodyModel& body) {
@@ -131,6 +144,7 @@ Motion LoadMotion(const MotionInput& input, const BodyModel& body) {
     ThrowUnknown("motion", input.name, MotionNames(), "an AMASS .npz");
   Motion motion = embedded ? Embedded(input) : FromFile(input, body);
   Cut(input, &motion);
+  SetShape(input, &motion);
   return motion;
 }
 

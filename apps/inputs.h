@@ -5,6 +5,7 @@
 // Body, motion and garment by the name of something embedded or by path.
 
 #include <string>
+#include <vector>
 
 #include "invsim/base/options.h"
 #include "invsim/body/body_model.h"
@@ -35,8 +36,9 @@ struct MotionInput {
   int first = 0;                       // frame, at the rate asked for
   int frames = 0;                      // 0: all there are
   double frames_per_second = 0;        // 0: as the file has it, or 30
+  std::vector<double> shape;           // empty: the motion's own
 };
-// Keys motion, motion_up, first_frame, frames, frames_per_second.
+// Keys motion, motion_up, first_frame, frames, frames_per_second, shape.
 void Describe(OptionTable* table, MotionInput* options);
 
 // At least one frame. Throws UsageError or InputError.

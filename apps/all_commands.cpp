@@ -10,6 +10,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(MakeCompareCommand());
   commands.push_back(MakeDemoCommand());
+  commands.push_back(MakeEvalCommand());
   commands.push_back(MakeFitCommand());
   commands.push_back(MakeInitCommand());
   commands.push_back(MakeInspectCommand());

@@ -15,14 +15,6 @@ constexpr double kNoHeading = 1e-6;
 
 }  // namespace
 
-BodyParameters Between(const BodyParameters& a,
-                       const BodyParameters& b,
-                       double s) {
-  if (s <= 0) return a;
-  if (s >= 1) return b;
-  return Interpolate(a, b, s);
-}
-
 Vector3d Heading(const Vector3d& rotation) {
   // Of the quaternion (cos x/2, sin x/2 axis) the part (w, y) is the twist.
   const double angle = rotation.norm();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "invsim/base/interrupt.h"
+#include "invsim/body/motion.h"
 #include "invsim/sim/body_path.h"
 
 namespace invsim {
@@ -24,7 +25,7 @@ class Dressing {
 
  private:
   int Frames(double seconds) const {
-    return static_cast<int>(std::ceil(seconds * options_.frames_per_second));
+    return static_cast<int>(std::ceil(seconds / frame_seconds_));
   }
   // The body of a moment of the lead-in, in seconds before the first frame.
   BodyParameters Before(double seconds) const {
@@ -43,6 +44,7 @@ class Dressing {
   const RelaxationScene& scene_;
   const RelaxationOptions& options_;
   const RelaxationCallback& on_frame_;
+  const double frame_seconds_;  // of as many steps as the simulator takes
   StartingPlace start_;
   BodyParameters goal_;  // where it holds
   FrameStepper stepper_;
@@ -63,6 +65,8 @@ Dressing::Dressing(const RelaxationScene& scene,
     : scene_(scene),
       options_(options),
       on_frame_(on_frame),
+      frame_seconds_(simulator->step_options().substeps /
+                     options.steps_per_second),
       start_(PlaceAtStart(
           scene.body, Before(-options.lead_in_seconds), scene.garment_shape)),
       goal_(Before(-options.lead_in_seconds)),
@@ -78,7 +82,7 @@ bool Dressing::Step(RelaxationPhase phase,
     result_.status = RunStatus::kInterrupted;
     return false;
   }
-  const double dt = 1.0 / options_.frames_per_second;
+  const double dt = frame_seconds_;
   FrameStats stats;
   if (!stepper_.Step(scene_.body.Vertices(body), dt, &stats)) {
     result_.stats.step.Add(stats.step);
@@ -111,8 +115,9 @@ bool Dressing::Move() {
   const int frames = Frames(options_.move_seconds);
   for (int k = 1; k <= frames; ++k) {
     const double s = SmoothStep(static_cast<double>(k) / frames);
-    if (!Step(RelaxationPhase::kMove, Between(start_.body, goal_, s), false))
-      return false;
+    const BodyParameters body =
+        k == frames ? goal_ : Interpolate(start_.body, goal_, s);
+    if (!Step(RelaxationPhase::kMove, body, false)) return false;
   }
   return true;
 }
@@ -130,7 +135,7 @@ bool Dressing::Hold() {
 bool Dressing::LeadIn() {
   const int frames = Frames(options_.lead_in_seconds);
   for (int k = 1; k <= frames; ++k) {
-    const double before = (k - frames) / options_.frames_per_second;
+    const double before = (k - frames) * frame_seconds_;
     if (!Step(RelaxationPhase::kLeadIn, Before(before), false)) return false;
   }
   return true;
@@ -176,9 +181,9 @@ void Describe(OptionTable* table, RelaxationOptions* o) {
                      "holding",
               .unit = "1/s",
               .at_least = 0});
-  table->Add("frames_per_second",
-             &o->frames_per_second,
-             {.doc = "frames of the relaxation, each of step.substeps steps",
+  table->Add("steps_per_second",
+             &o->steps_per_second,
+             {.doc = "steps of the relaxation, whatever step.substeps is",
               .unit = "1/s",
               .above = 0});
 }

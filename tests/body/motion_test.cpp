@@ -70,6 +70,26 @@ TEST(Motion, ZUpTurnsToYUp) {
   EXPECT_EQ(YUpFrom(UpAxis::kY), Matrix3d::Identity());
 }
 
+TEST(Motion, InterpolateTurnsEvenlyTheShortWay) {
+  std::mt19937 rng(4);
+  const Motion motion = RandomMotion(2, &rng);
+  const PoseVector from = motion.poses[0], to = motion.poses[1];
+  const PoseVector at =
+      Interpolate(motion.Frame(0), motion.Frame(1), 0.25).pose;
+  for (int j = 0; j < kNumJoints; ++j) {
+    const Matrix3d a = Exp(from.segment<3>(3 * j));
+    const Matrix3d b = Exp(to.segment<3>(3 * j));
+    const Matrix3d middle = Exp(at.segment<3>(3 * j));
+    const double whole = GeodesicDistance(a, b);
+    EXPECT_NEAR(GeodesicDistance(a, middle), 0.25 * whole, 1e-9);
+    EXPECT_NEAR(GeodesicDistance(middle, b), 0.75 * whole, 1e-9);
+  }
+  BodyParameters left, right;
+  left.pose[1] = 3.0;
+  right.pose[1] = -3.0;  // 0.283 rad further, not 6 back
+  EXPECT_NEAR(std::abs(Interpolate(left, right, 0.5).pose[1]), kPi, 1e-12);
+}
+
 TEST(Motion, InterpolateMeetsBothEnds) {
   std::mt19937 rng(2);
   const BodyParameters a = RandomParameters(0.5, &rng);

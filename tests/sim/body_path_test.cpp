@@ -23,33 +23,6 @@ BodyParameters RandomBody(unsigned seed, double pose_scale) {
   return p;
 }
 
-TEST(Between, MeetsBothEndsAndTurnsEvenly) {
-  const BodyParameters a = RandomBody(1, 0.5), b = RandomBody(2, 0.5);
-  EXPECT_EQ(Between(a, b, 0).pose, a.pose);
-  EXPECT_EQ(Between(a, b, 1).pose, b.pose);
-  const BodyParameters middle = Between(a, b, 0.25);
-  EXPECT_LT((middle.shape - 0.75 * a.shape - 0.25 * b.shape).norm(), 1e-14);
-  EXPECT_LT(
-      (middle.translation - 0.75 * a.translation - 0.25 * b.translation).norm(),
-      1e-14);
-  for (int j = 0; j < kNumJoints; ++j) {
-    const Matrix3d from = Exp(a.pose.segment<3>(3 * j));
-    const Matrix3d to = Exp(b.pose.segment<3>(3 * j));
-    const Matrix3d at = Exp(middle.pose.segment<3>(3 * j));
-    const double whole = GeodesicDistance(from, to);
-    EXPECT_NEAR(GeodesicDistance(from, at), 0.25 * whole, 1e-9);
-    EXPECT_NEAR(GeodesicDistance(at, to), 0.75 * whole, 1e-9);
-  }
-}
-
-TEST(Between, TakesTheShortWayRoundWhereVectorsWrap) {
-  BodyParameters a, b;
-  a.pose[1] = 3.0;
-  b.pose[1] = -3.0;  // 0.283 rad further, not 6 back
-  const BodyParameters middle = Between(a, b, 0.5);
-  EXPECT_NEAR(std::abs(middle.pose[1]), M_PI, 1e-12);
-}
-
 TEST(Heading, IsTheTurnAboutTheVertical) {
   EXPECT_LT((Heading({0, 2, 0}) - Vector3d(0, 2, 0)).norm(), 1e-12);
   EXPECT_LT((Heading({0, 4, 0}) - Vector3d(0, 4 - 2 * M_PI, 0)).norm(), 1e-12);

@@ -112,6 +112,22 @@ TEST(Relaxation, LeadsInWithTheVelocityOfTheMotion) {
   EXPECT_NEAR(result.cloth.v.row(0).mean(), 0.6, 0.1);
 }
 
+TEST(Relaxation, TakesStepsOfItsOwnLength) {
+  RelaxationOptions brief;
+  brief.settle_seconds = 0.2;
+  brief.move_seconds = 0.2;
+  brief.hold_seconds = 0;
+  brief.steps_per_second = 60;
+  for (const int substeps : {1, 2, 4}) {
+    Scene scene;
+    scene.options.step.substeps = substeps;
+    Simulator simulator = scene.Make();
+    const RelaxationResult result = scene.Run(brief, &simulator);
+    EXPECT_EQ(result.frames, 24 / substeps);
+    EXPECT_EQ(result.stats.step.substeps, 24);
+  }
+}
+
 TEST(Relaxation, SaysSoIfItIsNotAtRestInTime) {
   const Scene scene;
   Simulator simulator = scene.Make();

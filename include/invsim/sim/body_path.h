@@ -17,12 +17,6 @@
 
 namespace invsim {
 
-// Shape and translation on straight lines, each joint's rotation at constant
-// angular velocity the shortest way; s in [0, 1].
-BodyParameters Between(const BodyParameters& a,
-                       const BodyParameters& b,
-                       double s);
-
 // The part about +y of a rotation (its twist; 0 if it stands on its head),
 // as an axis-angle vector.
 Vector3d Heading(const Vector3d& rotation);

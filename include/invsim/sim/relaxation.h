@@ -18,6 +18,11 @@
 // price is a path that was not measured. The default is none: a fit's first
 // frame is then at rest, and nothing depends on invented motion.
 //
+// Steps are of one length, whatever the sequence is simulated with: its
+// sub-steps are a choice of accuracy, and longer ones make the arms that come
+// down press so much cloth at once that steps miss their tolerance and are
+// halved, which costs more than it saves.
+//
 // Where settling and holding, the cloth's velocity is taken away at the rate
 // `damping`: what is sought there is a rest, not the way to it.
 
@@ -33,13 +38,13 @@
 namespace invsim {
 
 struct RelaxationOptions {
-  double settle_seconds = 0.3;
-  double move_seconds = 1.0;
+  double settle_seconds = 0.2;
+  double move_seconds = 0.6;
   double hold_seconds = 2.0;  // at most
   double rest_speed = 0.01;   // m/s
   double lead_in_seconds = 0.0;
   double damping = 5.0;           // 1/s
-  double frames_per_second = 30;  // each of step.substeps steps
+  double steps_per_second = 120;  // whatever step.substeps is
 };
 void Describe(OptionTable* table, RelaxationOptions* options);
 

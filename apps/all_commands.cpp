@@ -8,6 +8,7 @@ namespace invsim {
 
 std::vector<std::unique_ptr<Command>> AllCommands() {
   std::vector<std::unique_ptr<Command>> commands;
+  commands.push_back(MakeCheckGradientCommand());
   commands.push_back(MakeCompareCommand());
   commands.push_back(MakeDemoCommand());
   commands.push_back(MakeEvalCommand());

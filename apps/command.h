@@ -79,6 +79,7 @@ class Command {
 };
 
 // One function per command_NAME.cpp.
+std::unique_ptr<Command> MakeCheckGradientCommand();
 std::unique_ptr<Command> MakeCompareCommand();
 std::unique_ptr<Command> MakeDemoCommand();
 std::unique_ptr<Command> MakeEvalCommand();

@@ -12,6 +12,8 @@
 #include "invsim/cloth/authored_garment.h"
 #include "invsim/cloth/effect_registry.h"
 #include "invsim/cloth/named_materials.h"
+#include "invsim/fit/loss.h"
+#include "invsim/fit/optimizer.h"
 
 namespace invsim {
 namespace {
@@ -38,13 +40,31 @@ std::vector<Item> EffectItems() {
 std::vector<Item> MaterialItems() {
   std::vector<Item> items;
   for (const Material& material : NamedMaterials()) {
-    char doc[64];
-    std::snprintf(doc,
-                  sizeof(doc),
-                  "%.3f kg/m^2, friction on skin %.2g",
+    char figures[64];
+    std::snprintf(figures,
+                  sizeof(figures),
+                  ": %.3f kg/m^2, friction on skin %.2g",
                   material.density,
                   material.friction);
-    items.push_back({material.name, doc, ""});
+    items.push_back({material.name, material.doc + figures, ""});
+  }
+  return items;
+}
+
+std::vector<Item> LossItems() {
+  std::vector<Item> items;
+  for (const auto& entry : Losses().entries())
+    items.push_back({entry.name, entry.doc, ""});
+  return items;
+}
+
+std::vector<Item> OptimizerItems() {
+  std::vector<Item> items;
+  for (const auto& entry : Optimizers().entries()) {
+    OptionTable table;
+    const auto choice = entry.choose();
+    table.AddSection(entry.name, choice.get());
+    items.push_back({entry.name, entry.doc, OptionsText(table)});
   }
   return items;
 }
@@ -72,7 +92,9 @@ const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = {{"effects", EffectItems},
                                           {"materials", MaterialItems},
                                           {"garments", GarmentItems},
-                                          {"motions", MotionItems}};
+                                          {"motions", MotionItems},
+                                          {"losses", LossItems},
+                                          {"optimizers", OptimizerItems}};
   return kinds;
 }
 

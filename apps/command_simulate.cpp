@@ -7,66 +7,22 @@
 #include <iostream>
 
 #include "command.h"
-#include "inputs.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
 #include "invsim/base/logging.h"
 #include "invsim/base/progress.h"
 #include "invsim/base/stopwatch.h"
 #include "invsim/base/threads.h"
-#include "invsim/cloth/named_materials.h"
 #include "invsim/report/run_folder.h"
 #include "invsim/report/simulation_writer.h"
 #include "invsim/sim/relaxation.h"
 #include "invsim/sim/scene.h"
+#include "simulation_input.h"
 
 namespace invsim {
 namespace {
 
 constexpr char kDefaultOut[] = "invsim_simulate";
-
-struct InputOptions {
-  std::string body = "mannequin";
-  std::string garment = "tshirt";
-  AuthoredGarmentOptions authored;
-  MotionInput motion;
-};
-
-void Describe(OptionTable* table, InputOptions* o) {
-  table->Add("body",
-             &o->body,
-             {.doc = "mannequin, or the path of an SMPL-layout npz"});
-  table->Add("garment",
-             &o->garment,
-             {.doc = "an authored garment or the path of an OBJ placed around "
-                     "the T-posed body"});
-  Describe(table, &o->authored);
-  Describe(table, &o->motion);
-}
-
-// What is simulated, as loaded.
-struct Scene {
-  BodyModel body;
-  Garment garment;
-  Motion motion;
-  Material material;
-  std::vector<BodyParameters> frames;
-};
-
-Scene LoadScene(const InputOptions& input, const std::string& material) {
-  BodyModel body = LoadBody(input.body);
-  Garment garment = LoadGarment(input.garment, body, input.authored);
-  CheckGarmentFits(garment, body, ShapeVector::Zero(), input.garment);
-  Motion motion = LoadMotion(input.motion, body);
-  std::vector<BodyParameters> frames;
-  for (int t = 0; t < motion.num_frames(); ++t)
-    frames.push_back(motion.Frame(t));
-  return {std::move(body),
-          std::move(garment),
-          std::move(motion),
-          FindMaterial(material),
-          std::move(frames)};
-}
 
 std::string Note(const FrameStats& stats) {
   std::string note = std::to_string(stats.step.most_contacts) + " contacts";
@@ -86,15 +42,15 @@ class SimulateCommand : public Command {
   ExitCode Run(const CommandContext& context) override;
 
  private:
-  SimulationReport StartReport(const Scene& scene,
+  SimulationReport StartReport(const SimulationScene& scene,
                                const Simulator& simulator) const;
-  void Simulate(const Scene& scene,
+  void Simulate(const SimulationScene& scene,
                 const CommandContext& context,
                 Simulator* simulator,
                 FrameWriter* writer,
                 SimulationReport* report) const;
 
-  InputOptions input_;
+  SimulationInput input_;
   SceneOptions scene_;
   RelaxationOptions relaxation_;
   FrameWriterOptions output_;
@@ -121,7 +77,7 @@ void SimulateCommand::AddOptions(OptionTable* table) {
 }
 
 SimulationReport SimulateCommand::StartReport(
-    const Scene& scene, const Simulator& simulator) const {
+    const SimulationScene& scene, const Simulator& simulator) const {
   SimulationReport report;
   report.body = input_.body;
   report.motion = input_.motion.name;
@@ -142,7 +98,7 @@ SimulationReport SimulateCommand::StartReport(
   return report;
 }
 
-void SimulateCommand::Simulate(const Scene& scene,
+void SimulateCommand::Simulate(const SimulationScene& scene,
                                const CommandContext& context,
                                Simulator* simulator,
                                FrameWriter* writer,
@@ -180,7 +136,7 @@ void SimulateCommand::Simulate(const Scene& scene,
 ExitCode SimulateCommand::Run(const CommandContext& context) {
   const Stopwatch watch;
   const InterruptGuard interrupt;
-  const Scene scene = LoadScene(input_, scene_.material);
+  const SimulationScene scene = LoadSimulation(input_, scene_.material);
   UseMaterialFriction(*context.options, scene.material, &scene_);
   Simulator simulator(
       MakeSetup(scene_, scene.body, scene.garment, scene.material));

@@ -7,11 +7,17 @@
 #include "invsim/base/names.h"
 #include "invsim/body/mannequin.h"
 #include "invsim/body/motion_library.h"
+#include "invsim/study/cube_toy.h"
 
 namespace invsim {
 namespace {
 
 constexpr char kMannequin[] = "mannequin";
+constexpr char kCube[] = "cube";
+constexpr char kSheet[] = "sheet";
+constexpr int kSheetCells = 12;
+constexpr double kSheetGap = 0.01;  // m, above the body
+
 constexpr double kEmbeddedRate = 30;
 constexpr int kEmbeddedFrames = 60;
 
@@ -78,8 +84,9 @@ bool IsPath(const std::string& name) {
 
 BodyModel LoadBody(const std::string& name) {
   if (name == kMannequin) return Mannequin();
+  if (name == kCube) return CubeBody();
   if (!IsPath(name))
-    ThrowUnknown("body", name, {kMannequin}, "an SMPL-layout .npz");
+    ThrowUnknown("body", name, {kMannequin, kCube}, "an SMPL-layout .npz");
   return ReadBodyModel(name);
 }
 
@@ -93,8 +100,13 @@ Garment LoadGarment(const std::string& name,
                     const AuthoredGarmentOptions& options) {
   if (Contains(AuthoredGarmentNames(), name))
     return AuthoredGarment(name, TPoseOf(body), options);
-  if (!IsPath(name))
-    ThrowUnknown("garment", name, AuthoredGarmentNames(), "an .obj");
+  if (name == kSheet)
+    return SheetAbove(body.Vertices({}), kSheetCells, kSheetGap);
+  if (!IsPath(name)) {
+    std::vector<std::string> names = AuthoredGarmentNames();
+    names.push_back(kSheet);
+    ThrowUnknown("garment", name, names, "an .obj");
+  }
   return ReadGarment(name);
 }
 

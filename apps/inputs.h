@@ -18,13 +18,14 @@ namespace invsim {
 // Whether `name` is meant as a path: it has a slash or a dot.
 bool IsPath(const std::string& name);
 
-// "mannequin" or an SMPL-layout npz. Throws UsageError or InputError.
+// "mannequin", "cube" or an SMPL-layout npz. Throws UsageError or InputError.
 BodyModel LoadBody(const std::string& name);
 
 // What an authored garment is made round.
 TPoseBody TPoseOf(const BodyModel& body);
 
-// An authored garment's name, made round `body`, or an OBJ.
+// An authored garment's name, made round `body`; "sheet", lying on it; or an
+// OBJ.
 Garment LoadGarment(const std::string& name,
                     const BodyModel& body,
                     const AuthoredGarmentOptions& options);

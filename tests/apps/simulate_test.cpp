@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// `invsim simulate` as a user meets it: what it writes, what it refuses, and
+// that nothing is lost. The scenes are the smallest there are.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "invsim/io/npz.h"
+#include "invsim/io/obj.h"
+#include "invsim/io/pc2.h"
+#include "invsim/io/ply.h"
+#include "run_command.h"
+
+namespace invsim {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// A sheet on a cube, four frames: done in a second.
+constexpr char kSmall[] =
+    "simulate -q --set input.body=cube --set input.garment=sheet "
+    "--motion turn --frames 4 ";
+
+class SimulateTest : public ::testing::Test {
+ protected:
+  void SetUp() override { directory_ = TestDirectory().string(); }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  std::string Path(const std::string& name) const {
+    return directory_ + "/" + name;
+  }
+  // Expects one line with `text`, and nothing written.
+  void ExpectRefused(const std::string& arguments,
+                     int exit_code,
+                     const std::string& text) {
+    const CommandResult result =
+        RunCommand(arguments + " --out " + Path("refused"));
+    EXPECT_EQ(result.exit_code, exit_code) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, StartsWith("invsim: "));
+    EXPECT_THAT(result.err, HasSubstr(text));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
+    EXPECT_FALSE(std::filesystem::exists(Path("refused"))) << arguments;
+  }
+
+  std::string directory_;
+};
+
+TEST_F(SimulateTest, WritesARunFolder) {
+  const CommandResult result =
+      RunCommand(kSmall + std::string("--json --out ") + Path("run"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["status"], "complete");
+  EXPECT_EQ(json["counts"]["frames_done"], 4);
+  EXPECT_EQ(json["total"]["steps_missed"], 0);
+  EXPECT_LT(json["total"]["penetration_max_mm"], 1);
+  EXPECT_EQ(json,
+            nlohmann::json::parse(ReadFileBytes(Path("run/report.json"))));
+
+  const PlyMesh cloth = ReadPly(Path("run/cloth/000003.ply"));
+  EXPECT_EQ(cloth.vertices.cols(), json["counts"]["cloth_vertices"]);
+  EXPECT_TRUE(cloth.vertices.allFinite());
+  const PlyMesh body = ReadPly(Path("run/body/000003.ply"));
+  EXPECT_EQ(body.vertices.cols(), 8);
+  for (const char* file : {"report.html",
+                           "solver.txt",
+                           "config.resolved.toml",
+                           "body.npz",
+                           "cloth.pc2"})
+    EXPECT_TRUE(std::filesystem::exists(Path("run/") + file)) << file;
+  const CommandResult seen = RunCommand("inspect " + Path("run"));
+  EXPECT_EQ(seen.exit_code, 0) << seen.err;
+  EXPECT_THAT(seen.out, HasSubstr("run folder"));
+}
+
+TEST_F(SimulateTest, OverwritesNothingUnlessForced) {
+  std::filesystem::create_directory(Path("run"));
+  WriteFileBytes(Path("run/mine.txt"), "mine");
+  const std::string line = kSmall + std::string("--out ") + Path("run");
+  const CommandResult refused = RunCommand(line);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_FALSE(std::filesystem::exists(Path("run/report.json")));
+  EXPECT_EQ(RunCommand(line + " --force").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(Path("run/report.json")));
+  EXPECT_EQ(ReadFileBytes(Path("run/mine.txt")), "mine");
+}
+
+TEST_F(SimulateTest, FlagsComeBeforeSetBeforeFile) {
+  const auto resolved = [&](const std::string& more) {
+    const CommandResult result = RunCommand(
+        kSmall + std::string("--force --out ") + Path("run") + " " + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return ReadFileBytes(Path("run/config.resolved.toml"));
+  };
+  WriteFileBytes(Path("c.toml"),
+                 "[step]\nsubsteps = 3\n[contact]\nfriction = 0.4\n"
+                 "thickness = 0.003\n");
+  const std::string text = resolved(
+      "--config " + Path("c.toml") +
+      " --set step.substeps=2 --set contact.friction=0.5 --substeps 1");
+  EXPECT_THAT(text, HasSubstr("substeps = 1"));
+  EXPECT_THAT(text, HasSubstr("friction = 0.5"));
+  EXPECT_THAT(text, HasSubstr("thickness = 0.003"));
+  // What was resolved gives the same run.
+  const std::string cloth = ReadFileBytes(Path("run/cloth.pc2"));
+  const CommandResult again =
+      RunCommand("simulate -q --config " + Path("run/config.resolved.toml") +
+                 " --out " + Path("again"));
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(ReadFileBytes(Path("again/cloth.pc2")), cloth);
+}
+
+TEST_F(SimulateTest, RefusesWrongNamesAndOptions) {
+  ExpectRefused("simulate --body manequin", 2, "did you mean 'mannequin'?");
+  ExpectRefused(
+      "simulate --body cube --garment tshrt", 2, "did you mean 'tshirt'?");
+  ExpectRefused(
+      "simulate --body cube --motion wlak_in_place", 2, "walk_in_place");
+  ExpectRefused("simulate --material jerse", 2, "did you mean 'jersey'?");
+  ExpectRefused("simulate --substeps 0", 2, "step.substeps = 0");
+  ExpectRefused("simulate --friction -1", 2, "contact.friction");
+  ExpectRefused(
+      "simulate --body cube --garment sheet --set scene.effects=inertia,gravty",
+      2,
+      "gravity");
+  ExpectRefused(
+      "simulate --set relaxation.mvoe_seconds=1", 2, "relaxation.move_seconds");
+  WriteFileBytes(Path("c.toml"), "[step]\n\nsubstep = 1\n");
+  ExpectRefused("simulate --config " + Path("c.toml"), 2, Path("c.toml:3"));
+}
+
+TEST_F(SimulateTest, RefusesBadFiles) {
+  ExpectRefused("simulate --body /nowhere/b.npz", 3, "/nowhere/b.npz");
+  ExpectRefused(
+      "simulate --body cube --motion /nowhere/m.npz", 3, "/nowhere/m.npz");
+  ExpectRefused(
+      "simulate --body cube --garment /nowhere/g.obj", 3, "/nowhere/g.obj");
+  ExpectRefused("simulate --material /nowhere/m.json", 3, "/nowhere/m.json");
+  WriteFileBytes(Path("b.npz"), "PK not really");
+  ExpectRefused("simulate --body " + Path("b.npz"), 3, Path("b.npz"));
+  WriteFileBytes(Path("g.obj"), "");
+  ExpectRefused(
+      "simulate --body cube --garment " + Path("g.obj"), 3, Path("g.obj"));
+  WriteFileBytes(Path("g.obj"), "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n");
+  ExpectRefused(
+      "simulate --body cube --garment " + Path("g.obj"), 3, Path("g.obj"));
+  WriteFileBytes(Path("m.json"), "{\"density\": ");
+  ExpectRefused("simulate --material " + Path("m.json"), 3, Path("m.json"));
+}
+
+TEST_F(SimulateTest, RefusesAGarmentThatIsNotOnTheBody) {
+  const std::string garment = Path("g.obj");
+  WriteFileBytes(garment, "v 5 0 0\nv 5.1 0 0\nv 5 0.1 0\nf 1 2 3\n");
+  ExpectRefused("simulate --set input.body=cube --garment " + garment,
+                3,
+                garment + ": its nearest vertex is");
+}
+
+TEST_F(SimulateTest, RefusesAMotionOfWrongShapeOrTooShort) {
+  const auto motion = [&](int poses, int translations, double value) {
+    WriteNpz(Path("m.npz"),
+             {{"poses",
+               NpyArray::Doubles({poses, 72},
+                                 std::vector<double>(72 * poses, value))},
+              {"trans",
+               NpyArray::Doubles({translations, 3},
+                                 std::vector<double>(3 * translations))},
+              {"mocap_framerate", NpyArray::Doubles({}, {30})}});
+    return "simulate --body cube --motion " + Path("m.npz");
+  };
+  ExpectRefused(motion(5, 4, 0), 3, "trans");
+  ExpectRefused(motion(5, 5, std::nan("")), 3, Path("m.npz"));
+  ExpectRefused(
+      motion(5, 5, 0) + " --set input.first_frame=9", 2, "only frames 0 to 4");
+}
+
+TEST_F(SimulateTest, CountsStepsThatMissTheirTolerance) {
+  const CommandResult result =
+      RunCommand(kSmall +
+                 std::string("--json --set step.friction.newton_iterations=1 "
+                             "--set step.friction.admm_iterations=1 "
+                             "--set step.friction.retries=0 "
+                             "--set step.max_halvings=0 "
+                             "--set step.friction.tolerance=1e-9 --out ") +
+                 Path("run"));
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_GT(json["total"]["steps_missed"], 0);
+  EXPECT_GT(json["total"]["worst_residual_weights"], 1e-9);
+}
+
+}  // namespace
+}  // namespace invsim

@@ -75,6 +75,9 @@ class Command {
   virtual void AddArguments(CLI::App* app, KeyFlags* flags) = 0;
   // Sections of the configuration beside `run`.
   virtual void AddOptions(OptionTable* table) = 0;
+  // Takes away entries that are meant for other than these options, before
+  // they are read.
+  virtual void TakeConfig(Config*) {}
   virtual ExitCode Run(const CommandContext& context) = 0;
 };
 
@@ -88,6 +91,7 @@ std::unique_ptr<Command> MakeInitCommand();
 std::unique_ptr<Command> MakeInspectCommand();
 std::unique_ptr<Command> MakeListCommand();
 std::unique_ptr<Command> MakeSimulateCommand();
+std::unique_ptr<Command> MakeSweepCommand();
 std::unique_ptr<Command> MakeSynthCommand();
 
 // All of them, in alphabetical order (all_commands.cpp).

@@ -48,7 +48,9 @@ class Subcommand {
     OptionTable table;
     table.AddSection("run", &context_.run);
     command_->AddOptions(&table);
-    table.Read(ReadConfig());
+    Config config = ReadConfig();
+    command_->TakeConfig(&config);
+    table.Read(config);
     context_.options = &table;
     SetThreads(context_.run.threads);
     return command_->Run(context_);

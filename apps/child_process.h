@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_APPS_CHILD_PROCESS_H_
+#define INVSIM_APPS_CHILD_PROCESS_H_
+
+// `invsim` run by itself as another process, so that a failure of any kind is
+// a result, and its processor time is known.
+
+#include <string>
+#include <vector>
+
+namespace invsim {
+
+struct ChildResult {
+  int exit_code = -1;  // 128 + the signal, if one ended it
+  double wall_seconds = 0;
+  double cpu_seconds = 0;  // user and system, all threads
+};
+
+// `arguments` without the program's name. What it prints goes to `log`.
+// Throws InputError if it cannot be started.
+ChildResult RunChild(const std::vector<std::string>& arguments,
+                     const std::string& log);
+
+}  // namespace invsim
+
+#endif  // INVSIM_APPS_CHILD_PROCESS_H_

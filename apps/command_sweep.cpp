@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// invsim sweep: one command with many settings; what each buys and costs.
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "command.h"
+#include "evaluation_inputs.h"
+#include "invsim/base/error.h"
+#include "invsim/base/interrupt.h"
+#include "invsim/base/progress.h"
+#include "invsim/io/file.h"
+#include "invsim/report/sweep_report.h"
+#include "invsim/study/cloth_difference.h"
+#include "sweep_runs.h"
+
+namespace invsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kDefaultOut[] = "invsim_sweep";
+constexpr char kClothRms[] = "cloth_rms_mm";
+constexpr char kBodyError[] = "body_v2v_mean_mm";
+constexpr char kCpuPerSecond[] = "cpu_per_simulated_second";
+constexpr char kWall[] = "wall_seconds";
+
+class SweepCommand : public Command {
+ public:
+  std::string name() const override { return "sweep"; }
+  std::string doc() const override {
+    return "one command with many settings: what each buys and costs";
+  }
+  void AddArguments(CLI::App* app, KeyFlags* flags) override {
+    flags->Add("--repeats", "sweep.repeats", "of every setting");
+    flags->Add("--truth", "sweep.truth", "a sequence to hold runs against");
+    app->add_flag("--force", force_, "run again what DIR holds already");
+  }
+  void AddOptions(OptionTable* table) override {
+    table->AddSection("sweep", &options_);
+  }
+  void TakeConfig(Config* config) override { plan_ = TakeSweepPlan(config); }
+  ExitCode Run(const CommandContext& context) override;
+
+ private:
+  bool RunAll(const SweepRuns& runs, std::ostream* log) const;
+  SweepReport Gather(const SweepRuns& runs) const;
+  void Measure(const SweepRuns& runs,
+               const LoadedReference* truth,
+               SweepResult* result) const;
+  void UseErrorAndCost(SweepReport* report) const;
+
+  SweepOptions options_;
+  SweepPlan plan_;
+  bool force_ = false;
+};
+
+// Every setting once, then every setting again. False if interrupted.
+bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
+  const std::vector<SweepSetting>& settings = plan_.settings;
+  const int total = options_.repeats * static_cast<int>(settings.size()) +
+                    (plan_.has_reference ? 1 : 0);
+  Progress progress(log, StyleFor(STDERR_FILENO), "runs", total);
+  const auto run = [&](const SweepSetting& setting, int repeat) {
+    const SweepRun done = runs.Run(setting, repeat);
+    if (done.exit_code == static_cast<int>(ExitCode::kInterrupted) ||
+        InterruptRequested())
+      return false;
+    progress.Advance(setting.name + (done.usable()
+                                         ? ""
+                                         : ": failed, exit code " +
+                                               std::to_string(done.exit_code)));
+    return true;
+  };
+  if (force_) {
+    if (plan_.has_reference) runs.Forget(plan_.reference, 0);
+    for (const SweepSetting& setting : settings)
+      for (int k = 0; k < options_.repeats; ++k) runs.Forget(setting, k);
+  }
+  if (plan_.has_reference) {
+    if (!run(plan_.reference, 0)) return false;
+    if (!runs.Run(plan_.reference, 0).usable())
+      throw InputError("the reference run failed: " +
+                       runs.Result(plan_.reference, 1, {}).failure);
+  }
+  for (int repeat = 0; repeat < options_.repeats; ++repeat)
+    for (const SweepSetting& setting : settings)
+      if (!run(setting, repeat)) return false;
+  return true;
+}
+
+// The numbers of a usable result that need a comparison.
+void SweepCommand::Measure(const SweepRuns& runs,
+                           const LoadedReference* truth,
+                           SweepResult* result) const {
+  const std::string folder = runs.Folder(result->setting, 0);
+  try {
+    if (truth) {
+      const Metrics metrics = Evaluate(*truth->reference, LoadEstimate(folder));
+      for (const auto& value : metrics.Values())
+        result->values.push_back(value);
+    } else if (plan_.has_reference) {
+      const ClothDifference d =
+          CompareClothFolders(folder, runs.Folder(plan_.reference, 0));
+      result->frame_errors_mm = d.rms_mm;
+      result->values.emplace_back(kClothRms, d.total_rms_mm());
+      result->values.emplace_back("cloth_last_frame_rms_mm", d.rms_mm.back());
+      result->values.emplace_back("cloth_mean_mm", d.mean_mm);
+      result->values.emplace_back("cloth_max_mm", d.max_mm);
+    }
+  } catch (const InputError& error) {
+    result->usable = false;
+    result->failure = error.what();
+  }
+}
+
+// Looks the two keys up in every result.
+void SweepCommand::UseErrorAndCost(SweepReport* report) const {
+  for (SweepResult& r : report->results) {
+    if (!r.usable) continue;
+    bool has_error = false, has_cost = false;
+    double least = 0, largest = 0;
+    for (const auto& [key, value] : r.values) {
+      if (key == report->error_key) {
+        r.error = value;
+        has_error = true;
+      } else if (key == report->cost_key) {
+        r.cost.median = least = largest = value;
+        has_cost = true;
+      }
+    }
+    for (const auto& [key, value] : r.values) {
+      if (key == report->cost_key + "_least") least = value;
+      if (key == report->cost_key + "_largest") largest = value;
+    }
+    r.cost.least = least;
+    r.cost.largest = largest;
+    if (!has_error || !has_cost)
+      throw UsageError("sweep: the results have no '" +
+                       (has_error ? report->cost_key : report->error_key) +
+                       "'; expected a key of the CSV, or a [reference] or "
+                       "sweep.truth to measure errors");
+  }
+  MarkPareto(&report->results);
+}
+
+SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
+  SweepReport report;
+  report.command = options_.command;
+  report.tolerance = options_.tolerance;
+  report.repeats = options_.repeats;
+  report.held_against =
+      options_.truth.empty() ? "the reference run" : options_.truth;
+  report.error_key = options_.error;
+  if (report.error_key.empty())
+    report.error_key = options_.truth.empty() ? kClothRms : kBodyError;
+  report.cost_key = options_.cost;
+  if (report.cost_key.empty())
+    report.cost_key = options_.command == "fit" ? kWall : kCpuPerSecond;
+  std::optional<LoadedReference> truth;
+  if (!options_.truth.empty())
+    truth = LoadReference(options_.truth, options_.body);
+  for (const SweepSetting& setting : plan_.settings) {
+    SweepResult r = runs.Result(setting, options_.repeats, options_.report);
+    if (r.usable) Measure(runs, truth ? &*truth : nullptr, &r);
+    report.results.push_back(std::move(r));
+  }
+  UseErrorAndCost(&report);
+  return report;
+}
+
+ExitCode SweepCommand::Run(const CommandContext& context) {
+  const InterruptGuard interrupt;
+  const fs::path out(context.out.empty() ? kDefaultOut : context.out);
+  if (options_.truth.empty() && !plan_.has_reference)
+    throw UsageError(
+        "sweep: nothing to hold runs against; expected a [reference] or "
+        "sweep.truth");
+  if (fs::exists(out) && !fs::is_directory(out))
+    throw UsageError(out.string() + ": is a file, expected a folder");
+  std::vector<std::string> common = {options_.command,
+                                     "--threads",
+                                     std::to_string(context.run.threads),
+                                     "--seed",
+                                     std::to_string(context.run.seed),
+                                     "-q"};
+  for (const auto& [key, value] : plan_.base)
+    common.insert(common.end(), {"--set", key + "=" + value});
+  const SweepRuns runs(out.string(), common);
+  std::ostream* log = context.verbosity < 0 ? nullptr : &std::cerr;
+  if (!RunAll(runs, log)) return ExitCode::kInterrupted;
+  const SweepReport report = Gather(runs);
+  WriteFileBytes((out / "sweep.json").string(), SweepJson(report));
+  WriteFileBytes((out / "sweep.csv").string(), SweepCsv(report));
+  WriteFileBytes((out / "sweep.svg").string(), SweepSvg(report));
+  WriteFileBytes((out / "sweep.html").string(), SweepHtml(report));
+  std::cout << (context.json ? SweepJson(report) : SweepText(report));
+  for (const SweepResult& r : report.results)
+    if (r.usable) return ExitCode::kOk;
+  return ExitCode::kFailed;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> MakeSweepCommand() {
+  return std::make_unique<SweepCommand>();
+}
+
+}  // namespace invsim

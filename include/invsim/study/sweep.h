@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_STUDY_SWEEP_H_
+#define INVSIM_STUDY_SWEEP_H_
+
+// A sweep: one command run with many settings of its options, to see what
+// each buys and what it costs. It is written as a configuration:
+//
+//   [sweep]                        # how, see SweepOptions
+//   command = "simulate"
+//   repeats = 3
+//
+//   [base]                         # options of every run
+//   input.frames = 20
+//
+//   [reference]                    # options, over base, of the run that the
+//   step.substeps = 64             # others are held against
+//
+//   [grid]                         # every combination of these
+//   step.substeps = [1, 2, 4, 8]
+//   step.newton_iterations = [1, 3]
+//
+//   [list.no_bending]              # and each of these by itself
+//   scene.effects = ["inertia", "gravity", "membrane"]
+//
+// Runs are repeated in interleaved order (every setting once, then every
+// setting again): what slows the machine for a while slows all settings alike.
+// Times are given as median, least and largest.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "invsim/base/config.h"
+#include "invsim/base/options.h"
+
+namespace invsim {
+
+struct SweepOptions {
+  std::string command = "simulate";
+  int repeats = 1;
+  // A sequence with known truth, or "": runs are held against the reference.
+  std::string truth = "";
+  std::string body = "";  // of the truth, if there is none beside it
+  // What counts as error and as cost: keys of the results.
+  std::string error = "";  // "": cloth_rms_mm, with a truth body_v2v_mean_mm
+  std::string cost = "";  // "": cpu_per_simulated_second; of a fit wall_seconds
+  // Numbers of the runs' report.json to keep as results.
+  std::vector<std::string> report = {"total.steps",
+                                     "total.steps_missed",
+                                     "total.steps_halved",
+                                     "total.factorizations",
+                                     "total.solves",
+                                     "total.newton_iterations",
+                                     "total.splitting_iterations"};
+  double tolerance = 0.05;  // of "within 5 % of the best error"
+};
+void Describe(OptionTable* table, SweepOptions* options);
+
+// One setting: what to call it, and its options with their values as TOML.
+struct SweepSetting {
+  std::string name;  // may be the name of a folder
+  std::vector<std::pair<std::string, std::string>> options;
+};
+
+struct SweepPlan {
+  std::vector<std::pair<std::string, std::string>> base;
+  // The reference run, named "reference"; no options and no name if there is
+  // none.
+  SweepSetting reference;
+  bool has_reference = false;
+  std::vector<SweepSetting> settings;
+};
+
+// Takes the keys under base, reference, grid and list out of `config` and
+// makes the plan of them. Throws UsageError, naming where the key was
+// written: a value of the grid that is no list, two settings of one name, no
+// setting at all.
+SweepPlan TakeSweepPlan(Config* config);
+
+// Median, least and largest of the repeats.
+struct SweepSpread {
+  double median = 0, least = 0, largest = 0;
+};
+SweepSpread SpreadOf(std::vector<double> values);
+
+// What came of a setting.
+struct SweepResult {
+  SweepSetting setting;
+  bool usable = false;  // every repeat ended with exit code 0 or 4
+  std::vector<int> exit_codes;
+  std::string failure;  // the last line of its messages, if it is not usable
+  SweepSpread cost;
+  double error = 0;
+  // All numbers by key, medians over the repeats.
+  std::vector<std::pair<std::string, double>> values;
+  std::vector<double> frame_errors_mm;  // rms per frame against the reference
+  bool pareto = false;                  // no other is better in both
+};
+
+// Marks the usable results that no other usable one beats: as good in both
+// error and cost and better in one.
+void MarkPareto(std::vector<SweepResult>* results);
+
+// "within 5 % of the best error (1.2 mm) at 1/6 of the cost: NAME", or that
+// nothing succeeded.
+std::string SweepVerdict(const std::vector<SweepResult>& results,
+                         double tolerance);
+
+}  // namespace invsim
+
+#endif  // INVSIM_STUDY_SWEEP_H_

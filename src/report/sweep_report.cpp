@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/report/sweep_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "invsim/report/chart.h"
+
+namespace invsim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kWidth = 720, kHeight = 420;
+constexpr double kLeft = 70, kRight = 700, kTop = 30, kBottom = 370;
+constexpr char kFront[] = "#0072b2";
+constexpr char kDominated[] = "#aaaaaa";
+
+std::vector<const SweepResult*> CheapestFirst(const SweepReport& report) {
+  std::vector<const SweepResult*> sorted;
+  for (const SweepResult& r : report.results) sorted.push_back(&r);
+  std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) {
+    if (a->usable != b->usable) return a->usable;
+    return a->cost.median < b->cost.median;
+  });
+  return sorted;
+}
+
+std::string OptionsOf(const SweepSetting& setting, const char* separator) {
+  std::string text;
+  for (const auto& [key, value] : setting.options)
+    text += (text.empty() ? "" : separator) + key + " = " + value;
+  return text;
+}
+
+std::string CsvQuoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+// A logarithmic axis.
+class Axis {
+ public:
+  Axis(double from, double to) : from_(from), to_(to) {}
+  void Take(double value) {
+    if (!(value > 0) || !std::isfinite(value)) return;
+    low_ = std::min(low_, value);
+    high_ = std::max(high_, value);
+  }
+  // Some room at both ends.
+  void Finish() {
+    if (low_ > high_) low_ = high_ = 1;
+    const double room = std::max(1.15, std::pow(high_ / low_, 0.06));
+    low_ /= room;
+    high_ *= room;
+  }
+  double At(double value) const {
+    const double share = std::log(value / low_) / std::log(high_ / low_);
+    return from_ + (to_ - from_) * share;
+  }
+  // 1, 2 and 5 times powers of ten within it.
+  std::vector<double> Ticks() const {
+    std::vector<double> ticks;
+    for (int e = static_cast<int>(std::floor(std::log10(low_)));
+         std::pow(10, e) <= high_;
+         ++e)
+      for (const double m : {1, 2, 5})
+        if (m * std::pow(10, e) >= low_ && m * std::pow(10, e) <= high_)
+          ticks.push_back(m * std::pow(10, e));
+    return ticks;
+  }
+
+ private:
+  double from_, to_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = 0;
+};
+
+class Drawing {
+ public:
+  explicit Drawing(const SweepReport& report)
+      : report_(report), x_(kLeft, kRight), y_(kBottom, kTop) {
+    out_.precision(6);
+    for (const SweepResult& r : report.results) {
+      if (!Drawable(r)) continue;
+      x_.Take(r.cost.least);
+      x_.Take(r.cost.largest);
+      y_.Take(r.error);
+    }
+    x_.Finish();
+    y_.Finish();
+  }
+
+  std::string Draw() {
+    out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << kWidth
+         << ' ' << kHeight
+         << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
+         << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+    Axes();
+    Front();
+    for (const bool front : {false, true})
+      for (const SweepResult& r : report_.results)
+        if (Drawable(r) && r.pareto == front) Mark(r);
+    out_ << "</svg>\n";
+    return out_.str();
+  }
+
+ private:
+  static bool Drawable(const SweepResult& r) {
+    return r.usable && r.error > 0 && r.cost.median > 0;
+  }
+
+  void Text(double x, double y, const char* anchor, const std::string& text) {
+    out_ << "<text x=\"" << x << "\" y=\"" << y << "\" text-anchor=\"" << anchor
+         << "\">" << EscapeHtml(text) << "</text>\n";
+  }
+  void Line(double x0, double y0, double x1, double y1, const char* color) {
+    out_ << "<line x1=\"" << x0 << "\" y1=\"" << y0 << "\" x2=\"" << x1
+         << "\" y2=\"" << y1 << "\" stroke=\"" << color << "\"/>\n";
+  }
+
+  void Axes() {
+    for (const double tick : x_.Ticks()) {
+      Line(x_.At(tick), kTop, x_.At(tick), kBottom, "#eeeeee");
+      Text(x_.At(tick), kBottom + 16, "middle", ShortNumber(tick));
+    }
+    for (const double tick : y_.Ticks()) {
+      Line(kLeft, y_.At(tick), kRight, y_.At(tick), "#eeeeee");
+      Text(kLeft - 6, y_.At(tick) + 4, "end", ShortNumber(tick));
+    }
+    Text(0.5 * (kLeft + kRight), kBottom + 38, "middle", report_.cost_key);
+    Text(kLeft, kTop - 12, "start", report_.error_key);
+  }
+
+  void Front() {
+    out_ << "<path fill=\"none\" stroke=\"" << kFront
+         << "\" stroke-width=\"1.5\" d=\"";
+    char command = 'M';
+    for (const SweepResult* r : CheapestFirst(report_)) {
+      if (!Drawable(*r) || !r->pareto) continue;
+      out_ << command << x_.At(r->cost.median) << ' ' << y_.At(r->error);
+      command = 'L';
+    }
+    out_ << "\"/>\n";
+  }
+
+  void Mark(const SweepResult& r) {
+    const char* color = r.pareto ? kFront : kDominated;
+    const double x = x_.At(r.cost.median), y = y_.At(r.error);
+    if (r.cost.least < r.cost.largest)
+      Line(x_.At(r.cost.least), y, x_.At(r.cost.largest), y, color);
+    out_ << "<circle cx=\"" << x << "\" cy=\"" << y << "\" r=\"5\" fill=\""
+         << color << "\"><title>"
+         << EscapeHtml(r.setting.name + "\n" + OptionsOf(r.setting, "\n") +
+                       "\n" + report_.error_key + " " + ShortNumber(r.error) +
+                       "\n" + report_.cost_key + " " +
+                       ShortNumber(r.cost.median))
+         << "</title></circle>\n";
+    if (r.pareto) Text(x + 8, y - 6, "start", r.setting.name);
+  }
+
+  const SweepReport& report_;
+  Axis x_, y_;
+  std::ostringstream out_;
+};
+
+std::vector<std::string> ValueKeys(const SweepReport& report) {
+  std::vector<std::string> keys;
+  for (const SweepResult& r : report.results)
+    for (const auto& [key, value] : r.values)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        keys.push_back(key);
+  return keys;
+}
+
+const double* Find(const SweepResult& r, const std::string& key) {
+  for (const auto& [name, value] : r.values)
+    if (name == key) return &value;
+  return nullptr;
+}
+
+}  // namespace
+
+std::string SweepJson(const SweepReport& report) {
+  Json json;
+  json["schema"] = "invsim.sweep";
+  json["schema_version"] = kSweepSchemaVersion;
+  json["command"] = report.command;
+  json["held_against"] = report.held_against;
+  json["error"] = report.error_key;
+  json["cost"] = report.cost_key;
+  json["repeats"] = report.repeats;
+  json["verdict"] = SweepVerdict(report.results, report.tolerance);
+  json["results"] = Json::array();
+  for (const SweepResult& r : report.results) {
+    Json row;
+    row["name"] = r.setting.name;
+    row["options"] = Json::object();
+    for (const auto& [key, value] : r.setting.options)
+      row["options"][key] = value;
+    row["usable"] = r.usable;
+    row["exit_codes"] = r.exit_codes;
+    if (!r.usable) row["failure"] = r.failure;
+    row["pareto"] = r.pareto;
+    row["values"] = Json::object();
+    for (const auto& [key, value] : r.values) row["values"][key] = value;
+    if (!r.frame_errors_mm.empty())
+      row["cloth_rms_by_frame_mm"] = r.frame_errors_mm;
+    json["results"].push_back(std::move(row));
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string SweepCsv(const SweepReport& report) {
+  const std::vector<std::string> keys = ValueKeys(report);
+  std::ostringstream out;
+  out.precision(9);
+  out << "name,options,usable,pareto";
+  for (const std::string& key : keys) out << ',' << key;
+  out << '\n';
+  for (const SweepResult& r : report.results) {
+    out << CsvQuoted(r.setting.name) << ','
+        << CsvQuoted(OptionsOf(r.setting, "; ")) << ',' << r.usable << ','
+        << r.pareto;
+    for (const std::string& key : keys) {
+      out << ',';
+      if (const double* value = Find(r, key)) out << *value;
+    }
+    out << '\n';
+  }
+  return out.str();
+}
+
+std::string SweepSvg(const SweepReport& report) {
+  return Drawing(report).Draw();
+}
+
+std::string SweepText(const SweepReport& report) {
+  std::ostringstream out;
+  char line[256];
+  std::snprintf(line,
+                sizeof(line),
+                "  %12s %12s %21s  %s\n",
+                report.error_key.substr(0, 12).c_str(),
+                "cost",
+                "least - largest",
+                "setting");
+  out << "error: " << report.error_key << "; cost: " << report.cost_key << "\n"
+      << line;
+  for (const SweepResult* r : CheapestFirst(report)) {
+    if (!r->usable) {
+      out << "  failed (" << r->failure << ")  " << r->setting.name << "\n";
+      continue;
+    }
+    std::snprintf(line,
+                  sizeof(line),
+                  "%c %12.4g %12.4g %10.4g %10.4g  ",
+                  r->pareto ? '*' : ' ',
+                  r->error,
+                  r->cost.median,
+                  r->cost.least,
+                  r->cost.largest);
+    out << line << r->setting.name << "\n";
+  }
+  out << "* no other setting is better in both\n"
+      << SweepVerdict(report.results, report.tolerance) << "\n";
+  return out.str();
+}
+
+std::string SweepHtml(const SweepReport& report) {
+  const std::vector<std::string> keys = ValueKeys(report);
+  std::ostringstream out;
+  out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+         "<title>invsim sweep</title><style>"
+         "body{font-family:sans-serif;max-width:75em;margin:1em auto}"
+         "svg{width:100%;max-width:60em}"
+         "table{border-collapse:collapse;font-size:85%}"
+         "td,th{padding:.2em .6em;text-align:right;border-bottom:1px solid "
+         "#ddd}td:first-child,th:first-child{text-align:left}"
+         ".dominated{color:#888}.failed{color:#a00}"
+         "</style></head><body>\n<h1>Sweep of "
+      << EscapeHtml(report.command) << "</h1>\n<p>"
+      << EscapeHtml(SweepVerdict(report.results, report.tolerance))
+      << "</p>\n<p>Held against: " << EscapeHtml(report.held_against)
+      << ". Medians of " << report.repeats << " interleaved runs.</p>\n"
+      << SweepSvg(report) << "<table><tr><th>setting</th><th>"
+      << EscapeHtml(report.error_key) << "</th>";
+  for (const std::string& key : keys)
+    if (key != report.error_key) out << "<th>" << EscapeHtml(key) << "</th>";
+  out << "</tr>\n";
+  for (const SweepResult* r : CheapestFirst(report)) {
+    out << "<tr class=\""
+        << (!r->usable  ? "failed"
+            : r->pareto ? "front"
+                        : "dominated")
+        << "\"><td title=\"" << EscapeHtml(OptionsOf(r->setting, "\n")) << "\">"
+        << EscapeHtml(r->setting.name) << "</td>";
+    if (!r->usable)
+      out << "<td>" << EscapeHtml("failed: " + r->failure) << "</td>";
+    else
+      out << "<td>" << ShortNumber(r->error) << "</td>";
+    for (const std::string& key : keys) {
+      if (key == report.error_key) continue;
+      const double* value = Find(*r, key);
+      out << "<td>" << (value ? ShortNumber(*value) : "") << "</td>";
+    }
+    out << "</tr>\n";
+  }
+  out << "</table>\n</body></html>\n";
+  return out.str();
+}
+
+}  // namespace invsim

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/study/sweep.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "invsim/base/error.h"
+
+namespace invsim {
+namespace {
+
+constexpr char kReference[] = "reference";
+
+// "substeps=4" of ("step.substeps", "4").
+std::string ShortName(const std::string& key, const std::string& value) {
+  std::string name = key.substr(key.rfind('.') + 1) + "=" + value;
+  std::string kept;
+  for (const char c : name) {
+    const bool good = std::isalnum(static_cast<unsigned char>(c)) || c == '=' ||
+                      c == '.' || c == '-' || c == '_';
+    if (good)
+      kept += c;
+    else if (c != '"')
+      kept += '_';
+  }
+  return kept;
+}
+
+// The values of a list, each as TOML.
+std::vector<std::string> Elements(const std::string& key,
+                                  const ConfigEntry& entry) {
+  std::vector<std::string> texts;
+  if (const auto* numbers = std::get_if<std::vector<double>>(&entry.value)) {
+    for (const double v : *numbers) {
+      const bool whole = v == std::floor(v) && std::abs(v) < 1e15;
+      texts.push_back(whole ? TomlText(static_cast<std::int64_t>(v))
+                            : TomlText(v));
+    }
+  } else if (const auto* words =
+                 std::get_if<std::vector<std::string>>(&entry.value)) {
+    for (const std::string& w : *words) texts.push_back(TomlText(w));
+  }
+  if (texts.empty())
+    throw UsageError(entry.origin + ": grid." + key +
+                     ": expected a list of values, such as [1, 2, 4]");
+  return texts;
+}
+
+// Every combination of the old settings with the values of one more key.
+std::vector<SweepSetting> Times(const std::vector<SweepSetting>& old,
+                                const std::string& key,
+                                const std::vector<std::string>& values) {
+  std::vector<SweepSetting> all;
+  for (const SweepSetting& s : old) {
+    for (const std::string& value : values) {
+      SweepSetting next = s;
+      if (!next.name.empty()) next.name += ",";
+      next.name += ShortName(key, value);
+      next.options.emplace_back(key, value);
+      all.push_back(std::move(next));
+    }
+  }
+  return all;
+}
+
+// "a.b.c" -> ("a", "b.c").
+std::pair<std::string, std::string> Split(const std::string& key) {
+  const size_t dot = key.find('.');
+  if (dot == std::string::npos) return {key, ""};
+  return {key.substr(0, dot), key.substr(dot + 1)};
+}
+
+void CheckNames(const SweepPlan& plan) {
+  std::set<std::string> names = {kReference};
+  for (const SweepSetting& s : plan.settings)
+    if (!names.insert(s.name).second)
+      throw UsageError("sweep: two settings are called '" + s.name +
+                       "'; expected different names");
+  if (plan.settings.empty())
+    throw UsageError(
+        "sweep: nothing to try; expected a [grid] of lists or a [list.NAME]");
+}
+
+std::string Number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+void Describe(OptionTable* table, SweepOptions* o) {
+  table->Add("command",
+             &o->command,
+             {.doc = "what is run", .choices = {"simulate", "fit"}});
+  table->Add(
+      "repeats",
+      &o->repeats,
+      {.doc = "of every setting, interleaved", .at_least = 1, .at_most = 100});
+  table->Add("truth",
+             &o->truth,
+             {.doc = "a sequence with known truth that runs are held against; "
+                     "\"\": the reference run"});
+  table->Add(
+      "body", &o->body, {.doc = "of the truth, if there is none beside it"});
+  table->Add("error",
+             &o->error,
+             {.doc = "key of the results that counts as error; \"\": "
+                     "cloth_rms_mm, with a truth body_v2v_mean_mm"});
+  table->Add("cost",
+             &o->cost,
+             {.doc = "key of the results that counts as cost; \"\": "
+                     "cpu_per_simulated_second, of a fit wall_seconds"});
+  table->Add("report",
+             &o->report,
+             {.doc = "numbers of report.json to keep as results"});
+  table->Add("tolerance",
+             &o->tolerance,
+             {.doc = "share of the best error within which a setting counts "
+                     "as good as the best",
+              .at_least = 0});
+}
+
+SweepPlan TakeSweepPlan(Config* config) {
+  SweepPlan plan;
+  std::vector<SweepSetting> grid = {{}};
+  std::map<std::string, SweepSetting> list;
+  bool has_grid = false;
+  Config rest;
+  for (const auto& [key, entry] : config->entries()) {
+    const auto [part, option] = Split(key);
+    if (part == "base") {
+      plan.base.emplace_back(option, TomlText(entry.value));
+    } else if (part == kReference) {
+      plan.has_reference = true;
+      plan.reference.name = kReference;
+      plan.reference.options.emplace_back(option, TomlText(entry.value));
+    } else if (part == "grid") {
+      has_grid = true;
+      grid = Times(grid, option, Elements(option, entry));
+    } else if (part == "list") {
+      const auto [name, key_of_run] = Split(option);
+      if (key_of_run.empty())
+        throw UsageError(entry.origin + ": " + key +
+                         ": expected list.NAME.OPTION");
+      list[name].name = name;
+      list[name].options.emplace_back(key_of_run, TomlText(entry.value));
+    } else {
+      rest.Set(key, TomlText(entry.value), entry.origin);
+    }
+  }
+  if (has_grid) plan.settings = std::move(grid);
+  for (auto& [name, setting] : list) plan.settings.push_back(setting);
+  CheckNames(plan);
+  *config = std::move(rest);
+  return plan;
+}
+
+SweepSpread SpreadOf(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return {0.5 * (values[(n - 1) / 2] + values[n / 2]),
+          values.front(),
+          values.back()};
+}
+
+void MarkPareto(std::vector<SweepResult>* results) {
+  for (SweepResult& r : *results) {
+    r.pareto = r.usable;
+    for (const SweepResult& other : *results) {
+      if (!other.usable) continue;
+      const bool as_good =
+          other.error <= r.error && other.cost.median <= r.cost.median;
+      const bool better =
+          other.error < r.error || other.cost.median < r.cost.median;
+      if (as_good && better) r.pareto = false;
+    }
+  }
+}
+
+std::string SweepVerdict(const std::vector<SweepResult>& results,
+                         double tolerance) {
+  const SweepResult* best = nullptr;
+  for (const SweepResult& r : results)
+    if (r.usable && (!best || r.error < best->error)) best = &r;
+  if (!best) return "no setting succeeded";
+  const SweepResult* chosen = best;
+  for (const SweepResult& r : results)
+    if (r.usable && r.error <= (1 + tolerance) * best->error &&
+        r.cost.median < chosen->cost.median)
+      chosen = &r;
+  const std::string error = Number(best->error);
+  if (chosen == best)
+    return "best error " + error + ": " + best->setting.name +
+           "; nothing cheaper comes within " + Number(100 * tolerance) + " %";
+  const double ratio = best->cost.median / chosen->cost.median;
+  return "within " + Number(100 * tolerance) + " % of the best error (" +
+         error + ", " + best->setting.name + ") at 1/" + Number(ratio) +
+         " of the cost: " + chosen->setting.name;
+}
+
+}  // namespace invsim

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// invsim sweep as a user runs it.
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run_command.h"
+
+namespace invsim {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr char kBase[] =
+    "[sweep]\ncommand = \"simulate\"\n"
+    "[base]\ninput.garment = \"tank_top\"\ninput.edge = 0.08\n"
+    "input.motion = \"arms_down_and_swing\"\ninput.frames = 2\n"
+    "relaxation.settle_seconds = 0\nrelaxation.move_seconds = 0.001\n"
+    "relaxation.hold_seconds = 0\n"
+    "[reference]\nstep.substeps = 8\n";
+
+class SweepCommandTest : public ::testing::Test {
+ protected:
+  SweepCommandTest() : directory_(TestDirectory()) {}
+  ~SweepCommandTest() override { fs::remove_all(directory_); }
+
+  CommandResult Sweep(const std::string& toml) const {
+    const std::string config = (directory_ / "s.toml").string();
+    WriteFileBytes(config, toml);
+    return RunCommand("sweep -q --config '" + config + "' --out '" +
+                      (directory_ / "out").string() + "'");
+  }
+  nlohmann::json Json() const {
+    return nlohmann::json::parse(File("sweep.json"));
+  }
+  std::string File(const std::string& name) const {
+    return ReadFileBytes((directory_ / "out" / name).string());
+  }
+
+  fs::path directory_;
+};
+
+TEST_F(SweepCommandTest, MeasuresEverySettingAndKeepsFailures) {
+  const CommandResult result =
+      Sweep(std::string(kBase) +
+            "[grid]\nstep.substeps = [1, 8]\n"
+            "[list.broken]\ninput.garment = \"none.obj\"\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json json = Json();
+  ASSERT_EQ(json["results"].size(), 3u);
+  const auto& coarse = json["results"][0]["values"];
+  const auto& fine = json["results"][1]["values"];
+  EXPECT_GT(coarse["cloth_rms_mm"], 0.1);
+  EXPECT_EQ(fine["cloth_rms_mm"], 0);  // the reference's own options
+  EXPECT_GT(fine["total.factorizations"], coarse["total.factorizations"]);
+  EXPECT_GT(fine["cpu_per_simulated_second"], 0);
+  EXPECT_EQ(json["results"][2]["exit_codes"][0], 3);
+  EXPECT_THAT(json["results"][2]["failure"].get<std::string>(),
+              HasSubstr("none.obj"));
+  EXPECT_THAT(File("sweep.html"), HasSubstr("<svg"));
+  EXPECT_THAT(File("sweep.csv"), HasSubstr("substeps=8"));
+  EXPECT_THAT(result.out, HasSubstr("best error 0: substeps=8"));
+
+  // Nothing is run again; a longer grid runs what is new.
+  const std::string before = File("runs/substeps=1/0.json");
+  const auto written =
+      fs::last_write_time(directory_ / "out/runs/substeps=1/0.json");
+  ASSERT_EQ(Sweep(std::string(kBase) + "[grid]\nstep.substeps = [1, 2, 8]\n")
+                .exit_code,
+            0);
+  EXPECT_EQ(Json()["results"].size(), 3u);
+  EXPECT_EQ(File("runs/substeps=1/0.json"), before);
+  EXPECT_EQ(fs::last_write_time(directory_ / "out/runs/substeps=1/0.json"),
+            written);
+  // Other options under the same name are no result of this sweep.
+  std::string other = kBase;
+  other.replace(other.find("0.08"), 4, "0.07");
+  const CommandResult refused =
+      Sweep(other + "[grid]\nstep.substeps = [1, 8]\n");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+}
+
+TEST_F(SweepCommandTest, SaysWhatIsMissing) {
+  const CommandResult none = Sweep("[grid]\nstep.substeps = [1]\n");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("[reference]"));
+  std::string broken = kBase;
+  broken.replace(broken.find("tank_top"), 8, "none.obj");
+  const CommandResult reference =
+      Sweep(broken + "[grid]\nstep.substeps = [1]\n");
+  EXPECT_EQ(reference.exit_code, 3);
+  EXPECT_THAT(reference.err, HasSubstr("the reference run failed: "));
+  EXPECT_THAT(reference.err, HasSubstr("none.obj"));
+  const CommandResult unknown = Sweep(
+      "[sweep]\nrepeat = 2\n[reference]\nstep.substeps = 2\n"
+      "[grid]\nstep.substeps = [1]\n");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("sweep.repeats"));
+}
+
+}  // namespace
+}  // namespace invsim

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/report/sweep_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace invsim {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+SweepReport Example() {
+  SweepReport report;
+  report.command = "simulate";
+  report.error_key = "error_mm";
+  report.cost_key = "seconds";
+  report.held_against = "the reference run";
+  const auto add = [&](const char* name, double error, double cost) {
+    SweepResult r;
+    r.setting = {name, {{"step.substeps", "\"<" + std::string(name) + ">\""}}};
+    r.usable = error > 0;
+    r.failure = r.usable ? "" : "it broke";
+    r.exit_codes = {r.usable ? 0 : 5};
+    r.error = error;
+    r.cost = {cost, 0.9 * cost, 1.2 * cost};
+    if (r.usable) r.values = {{"error_mm", error}, {"seconds", cost}};
+    report.results.push_back(r);
+  };
+  add("good", 1, 8);
+  add("fast", 4, 1);
+  add("beaten", 5, 2);
+  add("broken", 0, 0);
+  MarkPareto(&report.results);
+  return report;
+}
+
+size_t Count(const std::string& text, const std::string& part) {
+  size_t count = 0;
+  for (size_t at = text.find(part); at != std::string::npos;
+       at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+TEST(SweepReport, KeepsFailuresAsResults) {
+  const auto json = nlohmann::json::parse(SweepJson(Example()));
+  ASSERT_EQ(json["results"].size(), 4u);
+  EXPECT_EQ(json["results"][3]["usable"], false);
+  EXPECT_EQ(json["results"][3]["exit_codes"][0], 5);
+  EXPECT_EQ(json["results"][3]["failure"], "it broke");
+  EXPECT_EQ(json["results"][1]["pareto"], true);
+  EXPECT_EQ(json["results"][2]["pareto"], false);
+  EXPECT_THAT(SweepText(Example()), HasSubstr("failed (it broke)  broken"));
+  const std::string csv = SweepCsv(Example());
+  EXPECT_EQ(Count(csv, "\n"), 5u);
+  EXPECT_THAT(csv, HasSubstr("name,options,usable,pareto,error_mm,seconds\n"));
+  EXPECT_THAT(csv, HasSubstr("0,0,,\n"));
+}
+
+TEST(SweepReport, ChartMarksTheFrontAndGreysTheRest) {
+  const std::string svg = SweepSvg(Example());
+  EXPECT_EQ(Count(svg, "<circle"), 3u);  // not what failed
+  EXPECT_EQ(Count(svg, "fill=\"#0072b2\"><title>"), 2u);
+  EXPECT_EQ(Count(svg, "fill=\"#aaaaaa\"><title>"), 1u);
+  // The text shown on hovering has the settings, escaped.
+  EXPECT_THAT(svg, HasSubstr("step.substeps = &quot;&lt;good&gt;&quot;"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+}
+
+TEST(SweepReport, PageSaysTheVerdict) {
+  const std::string page = SweepHtml(Example());
+  EXPECT_THAT(page, HasSubstr("best error 1: good"));
+  EXPECT_THAT(page, HasSubstr("failed: it broke"));
+  EXPECT_THAT(page, HasSubstr("<svg"));
+}
+
+TEST(SweepReport, NothingUsableStillMakesAChart) {
+  SweepReport report = Example();
+  report.results = {report.results[3]};
+  EXPECT_THAT(SweepSvg(report), Not(HasSubstr("nan")));
+  EXPECT_THAT(SweepText(report), HasSubstr("no setting succeeded"));
+}
+
+}  // namespace
+}  // namespace invsim

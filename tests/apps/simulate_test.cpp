@@ -81,6 +81,28 @@ TEST_F(SimulateTest, WritesARunFolder) {
   EXPECT_THAT(seen.out, HasSubstr("run folder"));
 }
 
+// Physics on the embedded shirt, body and walk: every step solved, nothing in
+// the skin. Coarse cloth, the first third of a second.
+TEST_F(SimulateTest, WearsTheShirtThroughAWalk) {
+  const CommandResult result = RunCommand(
+      "simulate -q --json --motion walk_in_place --garment tshirt --frames 11 "
+      "--set input.edge=0.045 --out " +
+      Path("run"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["counts"]["frames_done"], 11);
+  EXPECT_EQ(json["relaxation"]["at_rest"], true);
+  EXPECT_EQ(json["total"]["steps_missed"], 0);
+  EXPECT_LT(json["total"]["worst_residual_weights"], 1e-6);
+  EXPECT_LT(json["total"]["penetration_max_mm"], 1);
+  // It is worn: its middle stays on the chest while the body walks.
+  const Points first = ReadPly(Path("run/cloth/000000.ply")).vertices;
+  const Points last = ReadPly(Path("run/cloth/000010.ply")).vertices;
+  EXPECT_TRUE(last.allFinite());
+  EXPECT_LT((last - first).rowwise().mean().norm(), 0.1);
+  EXPECT_GT((last - first).colwise().norm().maxCoeff(), 0.01);
+}
+
 TEST_F(SimulateTest, OverwritesNothingUnlessForced) {
   std::filesystem::create_directory(Path("run"));
   WriteFileBytes(Path("run/mine.txt"), "mine");

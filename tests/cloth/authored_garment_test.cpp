@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
 #include <numbers>
 
 #include "cloth/capsule_body.h"
@@ -29,30 +28,15 @@ const TPoseBody& Body() {
   return body;
 }
 
-// Each is made once for all tests.
-const Garment& Made(const std::string& name) {
-  static std::map<std::string, Garment> made;
-  if (!made.count(name)) {
-    AuthoredGarmentOptions options;
-    options.edge_length = kEdgeLength;
-    made[name] = AuthoredGarment(name, Body(), options);
-  }
-  return made[name];
-}
-
-class AuthoredGarmentTest : public ::testing::TestWithParam<std::string> {};
-
-TEST_P(AuthoredGarmentTest, IsAValidGarmentMadeToFit) {
-  const Garment& g = Made(GetParam());
-  ValidateGarment(g, GetParam());
+void ExpectMadeToFit(const std::string& name, const Garment& g) {
+  ValidateGarment(g, name);
   EXPECT_FALSE(g.rest_angles_from_placed);
   const VectorXd placed = FaceAreas(g.placed, g.faces);
   EXPECT_NEAR(VertexAreas(g).sum(), placed.sum(), 1e-12);
 }
 
-TEST_P(AuthoredGarmentTest, IsOneUncrossedPieceWithItsOpenings) {
-  const Garment& g = Made(GetParam());
-  const size_t openings = GetParam() == "trousers" ? 3 : 4;
+void ExpectOneUncrossedPiece(const std::string& name, const Garment& g) {
+  const size_t openings = name == "trousers" ? 3 : 4;
   EXPECT_EQ(BoundaryLoops(g.faces).size(), openings);
   EXPECT_EQ(EulerCharacteristic(g.faces), 2 - static_cast<int>(openings));
   const auto piece = VertexComponents(g.faces, g.num_vertices());
@@ -60,8 +44,7 @@ TEST_P(AuthoredGarmentTest, IsOneUncrossedPieceWithItsOpenings) {
   EXPECT_TRUE(SelfIntersections(g.placed, g.faces).empty());
 }
 
-TEST_P(AuthoredGarmentTest, IsClearOfTheSkinAndFacesOutward) {
-  const Garment& g = Made(GetParam());
+void ExpectClearOfTheSkinAndOutward(const Garment& g) {
   const SurfaceIndex skin(Body().vertices, Body().faces);
   const Clearance c = MeasureClearance(g.placed, g.faces, skin);
   EXPECT_GE(c.vertices, 0.003);
@@ -76,8 +59,7 @@ TEST_P(AuthoredGarmentTest, IsClearOfTheSkinAndFacesOutward) {
   }
 }
 
-TEST_P(AuthoredGarmentTest, HasWellShapedTriangles) {
-  const Garment& g = Made(GetParam());
+void ExpectWellShapedTriangles(const Garment& g) {
   const VectorXd angles = SmallestAngles(g.placed, g.faces);
   EXPECT_GT(angles.minCoeff(), 18 * kDegree);
   EXPECT_GT(angles.mean(), 48 * kDegree);
@@ -89,51 +71,70 @@ TEST_P(AuthoredGarmentTest, HasWellShapedTriangles) {
       sum / static_cast<double>(edges.size()), kEdgeLength, 0.1 * kEdgeLength);
 }
 
-INSTANTIATE_TEST_SUITE_P(All,
-                         AuthoredGarmentTest,
-                         ::testing::ValuesIn(AuthoredGarmentNames()));
-
 // Openings are where limbs, neck and trunk leave; the front is closed.
-TEST(AuthoredGarment, OpeningsLetTheBodyThrough) {
+void ExpectOpenings(const std::string& name, const Garment& g) {
   const Vector3d right(-1, 0, 0), up(0, 1, 0), front(0, 0, 1);
-  for (const std::string& name : AuthoredGarmentNames()) {
-    const Garment& g = Made(name);
-    const SurfaceIndex cloth(g.placed, g.faces);
-    const auto open = [&](const Vector3d& from, const Vector3d& to) {
-      return !cloth.AnyHit(from, to, 3.0);
-    };
-    if (name == "trousers") {
-      EXPECT_TRUE(open(Vector3d(0, -0.2, 0), up));
-      for (int side = 0; side < 2; ++side) {
-        const Vector3d hip = Body().joints.col(1 + side);
-        EXPECT_TRUE(open(hip, Body().joints.col(7 + side) - hip));
-      }
-      EXPECT_FALSE(open(Vector3d(0, -0.2, 0), front));
-      EXPECT_FALSE(open(Vector3d(0.12, -0.5, 0), front));
-    } else {
-      const Vector3d chest(0, 0.24, 0);
-      EXPECT_TRUE(open(chest, up));
-      EXPECT_TRUE(open(chest, -up));
-      EXPECT_TRUE(open(chest, right));
-      EXPECT_TRUE(open(chest, -right));
-      EXPECT_FALSE(open(chest - 0.15 * up, front));
-      EXPECT_FALSE(open(chest - 0.15 * up, -front));
-      EXPECT_FALSE(open(chest - 0.3 * up, right));
+  const SurfaceIndex cloth(g.placed, g.faces);
+  const auto open = [&](const Vector3d& from, const Vector3d& to) {
+    return !cloth.AnyHit(from, to, 3.0);
+  };
+  if (name == "trousers") {
+    EXPECT_TRUE(open(Vector3d(0, -0.2, 0), up));
+    for (int side = 0; side < 2; ++side) {
+      const Vector3d hip = Body().joints.col(1 + side);
+      EXPECT_TRUE(open(hip, Body().joints.col(7 + side) - hip));
     }
+    EXPECT_FALSE(open(Vector3d(0, -0.2, 0), front));
+    EXPECT_FALSE(open(Vector3d(0.12, -0.5, 0), front));
+    return;
+  }
+  const Vector3d chest(0, 0.24, 0);
+  EXPECT_TRUE(open(chest, up));
+  EXPECT_TRUE(open(chest, -up));
+  EXPECT_TRUE(open(chest, right));
+  EXPECT_TRUE(open(chest, -right));
+  EXPECT_FALSE(open(chest - 0.15 * up, front));
+  EXPECT_FALSE(open(chest - 0.15 * up, -front));
+  EXPECT_FALSE(open(chest - 0.3 * up, right));
+}
+
+void ExpectLengthOfItsName(const std::string& name, const Garment& g) {
+  const double reach = g.placed.row(0).maxCoeff();
+  const double lowest = g.placed.row(1).minCoeff();
+  if (name == "long_sleeved_shirt") {
+    EXPECT_GT(reach, 0.58);  // wrist at 0.65
+  } else if (name == "tshirt") {
+    EXPECT_GT(reach, 0.28);  // elbow at 0.42
+    EXPECT_LT(reach, 0.40);
+  } else if (name == "tank_top") {
+    EXPECT_LT(reach, 0.25);
+  } else if (name == "dress") {
+    EXPECT_NEAR(lowest, -0.6, 0.02);  // knee
+  } else {
+    EXPECT_EQ(name, "trousers");
+    EXPECT_LT(lowest, -0.95);  // ankle
   }
 }
 
-TEST(AuthoredGarment, LengthsAreThoseOfTheirNames) {
-  const auto reach = [](const std::string& name) {
-    return Made(name).placed.row(0).maxCoeff();
-  };
-  EXPECT_GT(reach("long_sleeved_shirt"), 0.58);  // wrist at 0.65
-  EXPECT_GT(reach("tshirt"), 0.28);              // elbow at 0.42
-  EXPECT_LT(reach("tshirt"), 0.40);
-  EXPECT_LT(reach("tank_top"), 0.25);
-  EXPECT_NEAR(Made("dress").placed.row(1).minCoeff(), -0.6, 0.02);  // knee
-  EXPECT_LT(Made("trousers").placed.row(1).minCoeff(), -0.95);      // ankle
+// One test, for a garment takes seconds to make and every test may run in a
+// process of its own.
+class AuthoredGarmentTest : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(AuthoredGarmentTest, IsSound) {
+  AuthoredGarmentOptions options;
+  options.edge_length = kEdgeLength;
+  const Garment g = AuthoredGarment(GetParam(), Body(), options);
+  ExpectMadeToFit(GetParam(), g);
+  ExpectOneUncrossedPiece(GetParam(), g);
+  ExpectClearOfTheSkinAndOutward(g);
+  ExpectWellShapedTriangles(g);
+  ExpectOpenings(GetParam(), g);
+  ExpectLengthOfItsName(GetParam(), g);
 }
+
+INSTANTIATE_TEST_SUITE_P(All,
+                         AuthoredGarmentTest,
+                         ::testing::ValuesIn(AuthoredGarmentNames()));
 
 TEST(AuthoredGarment, EaseIsKept) {
   AuthoredGarmentOptions options;

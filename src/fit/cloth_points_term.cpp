@@ -14,6 +14,7 @@
 #include "invsim/fit/coverage.h"
 #include "invsim/geometry/kd_tree.h"
 #include "invsim/geometry/mesh.h"
+#include "invsim/geometry/point_normals.h"
 #include "invsim/geometry/surface_index.h"
 #include "invsim/sim/sensitivity.h"
 
@@ -29,7 +30,13 @@ struct VertexResidual {
   Side side;
   int vertex;
   Vector3d offset;
+  Vector3d normal;  // of the plane at the point; zero: the point itself
   double weight;
+
+  bool to_plane() const { return !normal.isZero(); }
+  double squared() const {
+    return to_plane() ? std::pow(normal.dot(offset), 2) : offset.squaredNorm();
+  }
 };
 
 // A point's distance to a face along `direction` (from face to point).
@@ -96,6 +103,7 @@ struct ClothPointsTerm::Impl {
   ClothRollout rollout;
   VectorXd cloth_share, body_share;
   std::vector<KdTree> trees;
+  std::vector<Points> normals;  // one per frame, or none are needed
   std::shared_ptr<const ceres::LossFunction> loss;
   std::unique_ptr<SurfaceIndex> body_index, cloth_index;
   std::vector<int> every_vertex;
@@ -133,11 +141,14 @@ void ClothPointsTerm::Impl::FindResiduals(int t) {
         const std::vector<Neighbour> nearest = tree.NearestAll(from);
         for (int i = 0; i < from.cols(); ++i) {
           if (side == Side::kSkin && covered[i]) continue;
-          frame.vertices.push_back(
-              {side,
-               i,
-               from.col(i) - tree.points().col(nearest[i].index),
-               unit * weight * share[i]});
+          const int point = nearest[i].index;
+          frame.vertices.push_back({side,
+                                    i,
+                                    from.col(i) - tree.points().col(point),
+                                    normals.empty()
+                                        ? Vector3d(0, 0, 0)
+                                        : Vector3d(normals[t].col(point)),
+                                    unit * weight * share[i]});
         }
       };
   add_vertices(Side::kCloth, garment, cloth_share, options.cloth_to_points);
@@ -179,6 +190,7 @@ FrameBlock ClothPointsTerm::Impl::Block(int t,
   const bool derivatives = skin != nullptr;
   BlockCompressor sum(kNumBodyParameters, derivatives);
   MatrixXd j;
+  VectorXd distance(1);
   for (const VertexResidual& v : frame.vertices) {
     if (derivatives) {
       if (v.side == Side::kSkin)
@@ -186,10 +198,15 @@ FrameBlock ClothPointsTerm::Impl::Block(int t,
       else
         j = garment->middleRows<3>(3 * v.vertex);
     }
-    sum.Add(v.offset, j, v.weight, loss.get());
+    if (v.to_plane()) {
+      distance[0] = v.normal.dot(v.offset);
+      if (derivatives) j = (v.normal.transpose() * j).eval();
+      sum.Add(distance, j, v.weight, loss.get());
+    } else {
+      sum.Add(v.offset, j, v.weight, loss.get());
+    }
   }
   j.resize(0, 0);
-  VectorXd distance(1);
   for (const PointResidual& p : frame.points) {
     distance[0] = p.distance;
     if (derivatives) {
@@ -305,6 +322,9 @@ ClothPointsTerm::ClothPointsTerm(const BodyModel& body,
                                                 options.lead))) {
   impl_->cloth_share = cloth_areas / cloth_areas.sum();
   for (const Points& cloud : clouds) impl_->trees.emplace_back(cloud);
+  if (options.distance == VertexDistance::kPlane)
+    for (const KdTree& tree : impl_->trees)
+      impl_->normals.push_back(EstimateNormals(tree));
   impl_->body_index =
       std::make_unique<SurfaceIndex>(reference.body, body.faces());
   impl_->cloth_index =
@@ -361,7 +381,7 @@ ClothPointsCosts ClothPointsTerm::costs() const {
   for (const FrameState& frame : impl_->frames) {
     for (const VertexResidual& v : frame.vertices)
       (v.side == Side::kCloth ? costs.cloth_to_points : costs.skin_to_points) +=
-          cost(v.weight, v.offset.squaredNorm());
+          cost(v.weight, v.squared());
     for (const PointResidual& p : frame.points)
       costs.points_to_surface += cost(p.weight, p.distance * p.distance);
   }
@@ -396,6 +416,11 @@ void Describe(OptionTable* table, ClothPointsOptions* o) {
   table->Add("points_to_surface",
              &o->points_to_surface,
              {.doc = "weight of the points' distances", .at_least = 0});
+  table->Add(
+      "distance",
+      &o->distance,
+      {{"point", VertexDistance::kPoint}, {"plane", VertexDistance::kPlane}},
+      {.doc = "of a vertex: to its nearest point, or to the plane there"});
   Describe(table, &o->lead);
   table->Add(
       "history",

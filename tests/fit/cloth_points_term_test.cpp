@@ -134,6 +134,21 @@ TEST_F(ClothPoints, OneFrameIsExactForASingleFrame) {
   CompareSlopes(Direction(true, true, true), 1, 0);
 }
 
+TEST_F(ClothPoints, OneFrameIsExactWithDistancesToPlanes) {
+  options_.distance = VertexDistance::kPlane;
+  CompareSlopes(Direction(true, true, true), 1, 0);
+}
+
+// The plane's distance is never more than the point's.
+TEST_F(ClothPoints, DistancesToPlanesCostLess) {
+  std::vector<double> to_points, to_planes;
+  MakeTerm(1).Evaluate(First(start_, 1), kNoLimit, &to_points);
+  options_.distance = VertexDistance::kPlane;
+  MakeTerm(1).Evaluate(First(start_, 1), kNoLimit, &to_planes);
+  EXPECT_LT(to_planes[0], to_points[0]);
+  EXPECT_GT(to_planes[0], 0);
+}
+
 // The shape moves the cloth of all frames, and so does a lasting change of
 // pose and place.
 TEST_F(ClothPoints, CarriedIsExactForTheShapeAndLastingChanges) {

@@ -11,8 +11,10 @@
 //                      its normal does not meet the simulated cloth
 //   points -> surface  each point to the nearest of cloth and bare skin
 //
-// Each distance has a robust loss of its own. Costs are in units of
-// information: all points of a frame together weigh as `observations`
+// A vertex's distance is that to its point, or, if asked for, to the plane
+// through it along the surface the points were measured on: sliding along it
+// then costs nothing. Each distance has a robust loss of its own. Costs are in
+// units of information: all points of a frame together weigh as `observations`
 // independent measurements of standard deviation `noise`.
 //
 // Which part of the cloth's past its derivative knows is `History`; what is
@@ -37,6 +39,8 @@ enum class History {
   kCarried
 };
 
+enum class VertexDistance { kPoint, kPlane };
+
 struct ClothPointsOptions {
   double noise = 0.01;         // m
   double observations = 1000;  // per frame
@@ -44,6 +48,7 @@ struct ClothPointsOptions {
   double cloth_to_points = 0.3;
   double skin_to_points = 0.3;
   double points_to_surface = 1;
+  VertexDistance distance = VertexDistance::kPoint;
   LeadOptions lead;
   History history = History::kOneFrame;
 };

@@ -88,8 +88,13 @@ std::vector<int> FixedAngles(const FreeParameters& free) {
 }  // namespace
 
 struct Objective::Impl : public ceres::EvaluationCallback {
-  Impl(const PriorOptions& prior_options, DataTerm* data_term, BodySequence* at)
-      : priors(prior_options), term(data_term), x(at) {
+  Impl(const PriorOptions& prior_options,
+       DataTerm* data_term,
+       BodySequence* at,
+       const BodyModel* model)
+      : priors(prior_options), term(data_term), x(at), body(model) {
+    if (body && priors.overlap > 0)
+      overlap = std::make_unique<BodyOverlap>(*body);
     ceres::Problem::Options options;
     options.evaluation_callback = this;
     problem = std::make_unique<ceres::Problem>(options);
@@ -98,12 +103,15 @@ struct Objective::Impl : public ceres::EvaluationCallback {
   void AddParameters(const FreeParameters& free);
   void AddData();
   void AddPriors();
+  void AddOverlap();
   void PrepareForEvaluation(bool jacobians, bool new_point) override;
   void EvaluateTerm();
 
   PriorOptions priors;
   DataTerm* term;
   BodySequence* x;
+  const BodyModel* body;
+  std::unique_ptr<BodyOverlap> overlap;  // null: not looked at
   DataState data;
   double cost_limit = std::numeric_limits<double>::infinity();
   BodySequence evaluated;  // where `data` is
@@ -166,6 +174,16 @@ void Objective::Impl::AddPriors() {
   }
 }
 
+void Objective::Impl::AddOverlap() {
+  if (!overlap || overlap->pairs().empty()) return;
+  const double scale = std::sqrt(priors.overlap) / priors.depth;
+  for (PoseVector& pose : x->poses)
+    problem->AddResidualBlock(NewOverlapCost(scale, body, overlap.get()),
+                              nullptr,
+                              x->shape.data(),
+                              pose.data());
+}
+
 void Objective::Impl::EvaluateTerm() {
   // Covariances and gradients are asked for where the optimiser just was.
   if (data.usable && SamePoint(*x, evaluated)) return;
@@ -192,11 +210,13 @@ void Objective::Impl::PrepareForEvaluation(bool jacobians, bool new_point) {
 Objective::Objective(const PriorOptions& priors,
                      const FreeParameters& free,
                      DataTerm* data,
-                     BodySequence* x)
-    : impl_(std::make_unique<Impl>(priors, data, x)) {
+                     BodySequence* x,
+                     const BodyModel* body)
+    : impl_(std::make_unique<Impl>(priors, data, x, body)) {
   impl_->AddParameters(free);
   impl_->AddData();
   impl_->AddPriors();
+  impl_->AddOverlap();
 }
 
 Objective::~Objective() = default;
@@ -221,6 +241,11 @@ CostTerms Objective::terms() const {
   terms.shape = 0.5 * priors.shape * x.shape.squaredNorm();
   for (const PoseVector& pose : x.poses)
     terms.pose += 0.5 * priors.pose * PosePrior(pose, nullptr).squaredNorm();
+  for (int t = 0; impl_->overlap && t < x.num_frames(); ++t)
+    terms.overlap +=
+        0.5 * priors.overlap / (priors.depth * priors.depth) *
+        impl_->overlap->Depths(impl_->body->Joints(x.Frame(t)), nullptr)
+            .squaredNorm();
   const double turn = 0.5 * priors.smoothness / (priors.turn * priors.turn);
   const double shift = 0.5 * priors.smoothness / (priors.shift * priors.shift);
   for (int t = 1; t + 1 < x.num_frames(); ++t) {

@@ -92,6 +92,46 @@ class PosePriorCost : public ceres::SizedCostFunction<kNumPosePrior, kNumPose> {
   double scale_;
 };
 
+// The place does not matter: parts of a body move together.
+class OverlapCost : public ceres::CostFunction {
+ public:
+  OverlapCost(double scale, const BodyModel* body, const BodyOverlap* overlap)
+      : scale_(scale), body_(body), overlap_(overlap) {
+    set_num_residuals(static_cast<int>(overlap->pairs().size()));
+    *mutable_parameter_block_sizes() = {kNumShape, kNumPose};
+  }
+  bool Evaluate(double const* const* x,
+                double* residuals,
+                double** jacobians) const override {
+    BodyParameters p;
+    p.shape = Eigen::Map<const ShapeVector>(x[0]);
+    p.pose = Eigen::Map<const PoseVector>(x[1]);
+    const int n = num_residuals();
+    if (!jacobians) {
+      Eigen::Map<VectorXd>(residuals, n) =
+          scale_ * overlap_->Depths(body_->Joints(p), nullptr);
+      return true;
+    }
+    const std::shared_ptr<const PosedBody> posed = body_->Pose(p);
+    VertexRows by_joints;
+    Eigen::Map<VectorXd>(residuals, n) =
+        scale_ * overlap_->Depths(posed->joints(), &by_joints);
+    const MatrixXd j = scale_ * by_joints * posed->JointJacobian();
+    if (jacobians[0])
+      Eigen::Map<VertexRows>(jacobians[0], n, kNumShape) =
+          j.leftCols(kNumShape);
+    if (jacobians[1])
+      Eigen::Map<VertexRows>(jacobians[1], n, kNumPose) =
+          j.middleCols(kNumShape, kNumPose);
+    return true;
+  }
+
+ private:
+  double scale_;
+  const BodyModel* body_;
+  const BodyOverlap* overlap_;
+};
+
 }  // namespace
 
 ceres::CostFunction* NewRotationSmoothness(double scale) {
@@ -105,6 +145,12 @@ ceres::CostFunction* NewShapePrior(double scale) {
 }
 ceres::CostFunction* NewPosePrior(double scale) {
   return new PosePriorCost(scale);
+}
+
+ceres::CostFunction* NewOverlapCost(double scale,
+                                    const BodyModel* body,
+                                    const BodyOverlap* overlap) {
+  return new OverlapCost(scale, body, overlap);
 }
 
 }  // namespace invsim

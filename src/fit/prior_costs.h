@@ -6,6 +6,7 @@
 
 #include <ceres/cost_function.h>
 
+#include "invsim/fit/body_overlap.h"
 #include "invsim/fit/priors.h"
 
 namespace invsim {
@@ -18,6 +19,11 @@ ceres::CostFunction* NewTranslationSmoothness(double scale);
 ceres::CostFunction* NewShapePrior(double scale);
 // 138 residuals by theta_t.
 ceres::CostFunction* NewPosePrior(double scale);
+// One residual per pair of `overlap` by beta, theta_t. Both arguments must
+// outlive it.
+ceres::CostFunction* NewOverlapCost(double scale,
+                                    const BodyModel* body,
+                                    const BodyOverlap* overlap);
 
 }  // namespace invsim
 

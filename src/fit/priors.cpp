@@ -111,6 +111,15 @@ void Describe(OptionTable* table, PriorOptions* o) {
       "pose",
       &o->pose,
       {.doc = "weight of the joints' limits and usual range", .at_least = 0});
+  table->Add("overlap",
+             &o->overlap,
+             {.doc = "weight of body parts in each other; 0: not looked at",
+              .at_least = 0});
+  table->Add("depth",
+             &o->depth,
+             {.doc = "overlap that counts as one standard deviation",
+              .unit = "m",
+              .above = 0});
 }
 
 RotationLaplacian LaplacianOfRotations(const PoseVector& before,

@@ -82,6 +82,7 @@ Json CostJson(const CostTerms& terms) {
   json["smoothness"] = terms.smoothness;
   json["shape"] = terms.shape;
   json["pose"] = terms.pose;
+  json["overlap"] = terms.overlap;
   return json;
 }
 
@@ -232,7 +233,8 @@ void OptimizerText(const FitReport& report, std::ostream* out) {
       .Add("  points to surface", costs.points_to_surface)
       .Add("smoothness", terms.smoothness)
       .Add("shape prior", terms.shape)
-      .Add("pose prior", terms.pose);
+      .Add("pose prior", terms.pose)
+      .Add("overlap of body parts", terms.overlap);
 }
 
 void SimulationText(const FitReport& report, std::ostream* out) {
@@ -422,14 +424,14 @@ std::string FitText(const FitReport& report) {
 std::string IterationsCsv(const FitReport& report) {
   std::ostringstream out;
   out.precision(10);
-  out << "iteration,successful,cost,data,smoothness,shape,pose,"
+  out << "iteration,successful,cost,data,smoothness,shape,pose,overlap,"
          "gradient_max_norm,step_norm,evaluations,abandoned,failed,"
          "linearizations,seconds\n";
   if (!report.result.optimizer) return out.str();
   for (const IterationRecord& i : report.result.optimizer->iterations)
     out << i.iteration << ',' << i.successful << ',' << i.cost << ','
         << i.terms.data << ',' << i.terms.smoothness << ',' << i.terms.shape
-        << ',' << i.terms.pose << ',' << i.gradient_norm << ',' << i.step_norm
+        << ',' << i.terms.pose << ',' << i.terms.overlap << ',' << i.gradient_norm << ',' << i.step_norm
         << ',' << i.counts.evaluations << ',' << i.counts.abandoned << ','
         << i.counts.failed << ',' << i.counts.linearizations << ',' << i.seconds
         << '\n';

@@ -8,7 +8,8 @@
 //   parameter blocks   beta[10]; theta_t[72], t_t[3] for every frame
 //   residual blocks    per frame the compressed data block (frame_block.h)
 //                      and the pose prior; per three frames the second
-//                      differences; once the shape prior
+//                      differences; once the shape prior; per frame the
+//                      overlap of body parts, if it has a weight
 //
 // The data term is evaluated once per point for all frames (Ceres's
 // EvaluationCallback); the blocks only read what it left.
@@ -46,16 +47,19 @@ struct CostTerms {
   double smoothness = 0;
   double shape = 0;
   double pose = 0;
-  double total() const { return data + smoothness + shape + pose; }
+  double overlap = 0;
+  double total() const { return data + smoothness + shape + pose + overlap; }
 };
 
 class Objective {
  public:
-  // `data` and `x` must outlive the objective; optimisers change `x` in place.
+  // `data`, `x` and `body` must outlive the objective; optimisers change `x`
+  // in place. `body` is what may overlap; null: that is not looked at.
   Objective(const PriorOptions& priors,
             const FreeParameters& free,
             DataTerm* data,
-            BodySequence* x);
+            BodySequence* x,
+            const BodyModel* body = nullptr);
   ~Objective();
 
   ceres::Problem* problem();

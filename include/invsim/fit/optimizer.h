@@ -76,6 +76,7 @@ struct CeresOptions {
   // small scale, on which no step helps and each costs a whole simulation.
   int refused_steps = 3;
   double radius = 1e4;  // first trust region
+  double most_radius = 1e16;
 };
 void Describe(OptionTable* table, CeresOptions* options);
 

@@ -14,6 +14,8 @@
 //   pose         limits of the joints and their usual range (table in
 //                pose_prior.cpp), so that limbs which few points see do not
 //                fold.
+//   overlap      |d|^2 / s^2, d the depths of body parts in each other
+//                (body_overlap.h). Off unless asked for.
 
 #include <array>
 
@@ -29,6 +31,8 @@ struct PriorOptions {
   double shift = 0.01;  // m
   double shape = 1;
   double pose = 1;
+  double overlap = 0;
+  double depth = 0.01;  // m, the overlap's standard deviation
 };
 void Describe(OptionTable* table, PriorOptions* options);
 

@@ -3,7 +3,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "invsim/base/stopwatch.h"
@@ -100,8 +99,6 @@ class CeresOptimizer : public Optimizer {
     solver_.parameter_tolerance = options.parameter_tolerance;
     solver_.gradient_tolerance = options.gradient_tolerance;
     solver_.initial_trust_region_radius = options.radius;
-    solver_.max_trust_region_radius =
-        std::max(options.radius, options.most_radius);
     solver_.max_solver_time_in_seconds = kNoLimit;
     solver_.logging_type = ceres::SILENT;
     solver_.num_threads = 1;
@@ -167,9 +164,6 @@ void Describe(OptionTable* table, CeresOptions* o) {
               .at_least = 0});
   table->Add(
       "radius", &o->radius, {.doc = "first trust region radius", .above = 0});
-  table->Add("most_radius",
-             &o->most_radius,
-             {.doc = "largest trust region radius", .above = 0});
 }
 
 std::unique_ptr<Optimizer> MakeLevenbergMarquardt(const CeresOptions& options) {

@@ -74,9 +74,8 @@ struct CeresOptions {
   double gradient_tolerance = 1e-10;  // largest component
   // Trust region only: nearest points and contacts make the cost rough on a
   // small scale, on which no step helps and each costs a whole simulation.
-  int refused_steps = 3;
+  int refused_steps = 5;
   double radius = 1e4;  // first trust region
-  double most_radius = 1e16;
 };
 void Describe(OptionTable* table, CeresOptions* options);
 

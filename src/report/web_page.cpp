@@ -106,7 +106,7 @@ Json MeshJson(const PageMesh& mesh) {
   return json;
 }
 
-std::string Viewer(const WebPage& page) {
+std::string ViewerScript(const WebPage& page) {
   Json data;
   data["times"] = page.times;
   data["meshes"] = Json::array();
@@ -116,14 +116,16 @@ std::string Viewer(const WebPage& page) {
   // "</script>" in a name would end the element.
   for (size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
     text.replace(at, 2, "<\\/");
-  return "<div id=\"viewer\"><canvas id=\"stage\"></canvas></div>\n"
-         "<div id=\"controls\"><button id=\"play\">Play</button>"
-         "<input id=\"time\" type=\"range\" min=\"0\" value=\"0\" "
-         "aria-label=\"frame\"><span id=\"clock\"></span></div>\n"
-         "<p id=\"scale\"></p><p id=\"note\"></p>\n"
-         "<script id=\"data\" type=\"application/json\">" +
-         text + "</script>\n<script>" + kPageScript + "</script>\n";
+  return "<script id=\"data\" type=\"application/json\">" + text +
+         "</script>\n<script>" + kPageScript + "</script>\n";
 }
+
+const char kStage[] =
+    "<div id=\"viewer\"><canvas id=\"stage\"></canvas></div>\n"
+    "<div id=\"controls\"><button id=\"play\">Play</button>"
+    "<input id=\"time\" type=\"range\" min=\"0\" value=\"0\" "
+    "aria-label=\"frame\"><span id=\"clock\"></span></div>\n"
+    "<p id=\"scale\"></p><p id=\"note\"></p>\n";
 
 std::string Facts(const WebPage& page) {
   std::string html = "<div><table>\n";
@@ -142,13 +144,14 @@ std::string FormatWebPage(const WebPage& page) {
       "<meta name=\"viewport\" content=\"width=device-width\"><title>" +
       EscapeHtml(page.title) + "</title><style>" + kPageStyle +
       "</style></head>\n<body><h1>" + EscapeHtml(page.title) + "</h1><p>" +
-      EscapeHtml(page.lead) + "</p>\n<div class=\"columns\">" + Facts(page) +
-      "<div>";
+      EscapeHtml(page.lead) + "</p>\n" + (page.meshes.empty() ? "" : kStage) +
+      "<div class=\"columns\">" + Facts(page);
   for (const Chart& chart : page.charts) html += FormatSvg(chart) + "\n";
-  html += "</div></div>\n";
-  if (!page.meshes.empty()) html += Viewer(page);
+  html += "</div>\n";
   if (!page.details.empty())
     html += "<pre>" + EscapeHtml(page.details) + "</pre>\n";
+  // Last, for it looks for the charts.
+  if (!page.meshes.empty()) html += ViewerScript(page);
   return html + "</body></html>\n";
 }
 

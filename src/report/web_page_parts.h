@@ -24,8 +24,10 @@ canvas { width: 100%; height: 32rem; display: block; touch-action: none;
 #controls input[type=range] { flex: 1 1 12rem; }
 #clock { font-variant-numeric: tabular-nums; min-width: 9rem; }
 #scale { color: var(--soft); }
-.columns { display: flex; flex-wrap: wrap; gap: 1.5rem; }
-.columns > * { flex: 1 1 20rem; min-width: 0; }
+.columns { display: grid; gap: 1rem 1.5rem;
+  grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); }
+.columns > * { min-width: 0; }
+.columns > div { grid-row: span 2; }
 table { border-collapse: collapse; }
 td { padding: .12rem .8rem .12rem 0; border-bottom: 1px solid var(--line);
   vertical-align: top; overflow-wrap: anywhere; }

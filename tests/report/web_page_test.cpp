@@ -53,6 +53,9 @@ TEST(WebPage, HoldsFactsChartsAndMeshes) {
                     HasSubstr("<td>vertices</td><td>3</td>"),
                     HasSubstr("<svg"),
                     HasSubstr("<canvas")));
+  // What is looked at first is above; the script finds the charts.
+  EXPECT_LT(html.find("<canvas"), html.find("<svg"));
+  EXPECT_LT(html.find("<svg"), html.find("<script"));
   const nlohmann::json data = Data(html);
   EXPECT_EQ(data["times"], (std::vector<double>{0, 0.1}));
   const nlohmann::json& mesh = data["meshes"][0];

@@ -67,6 +67,7 @@ std::optional<ClothEstimate> ReadCloth(const fs::path& run, int frame) {
   if (!fs::exists(path)) return std::nullopt;
   const PlyMesh mesh = ReadPly(path.string());
   ClothEstimate cloth{mesh.vertices};
+  cloth.faces = mesh.faces;
   const VectorXd* force[] = {mesh.Find("fx"), mesh.Find("fy"), mesh.Find("fz")};
   if (!force[0] || !force[1] || !force[2]) return cloth;
   cloth.force.resize(3, mesh.vertices.cols());

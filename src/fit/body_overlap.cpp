@@ -76,10 +76,9 @@ BodyOverlap::BodyOverlap(const BodyModel& body) {
                                                 joints.col(p.to),
                                                 joints.col(q.from),
                                                 joints.col(q.to));
-      const Vector3d apart = (1 - s.a) * joints.col(p.from) +
-                             s.a * joints.col(p.to) -
-                             (1 - s.b) * joints.col(q.from) -
-                             s.b * joints.col(q.to);
+      const Vector3d apart =
+          (1 - s.a) * joints.col(p.from) + s.a * joints.col(p.to) -
+          (1 - s.b) * joints.col(q.from) - s.b * joints.col(q.to);
       if (apart.norm() < p.radius + q.radius + kClear) pairs_.pop_back();
     }
 }

@@ -431,10 +431,10 @@ std::string IterationsCsv(const FitReport& report) {
   for (const IterationRecord& i : report.result.optimizer->iterations)
     out << i.iteration << ',' << i.successful << ',' << i.cost << ','
         << i.terms.data << ',' << i.terms.smoothness << ',' << i.terms.shape
-        << ',' << i.terms.pose << ',' << i.terms.overlap << ',' << i.gradient_norm << ',' << i.step_norm
-        << ',' << i.counts.evaluations << ',' << i.counts.abandoned << ','
-        << i.counts.failed << ',' << i.counts.linearizations << ',' << i.seconds
-        << '\n';
+        << ',' << i.terms.pose << ',' << i.terms.overlap << ','
+        << i.gradient_norm << ',' << i.step_norm << ',' << i.counts.evaluations
+        << ',' << i.counts.abandoned << ',' << i.counts.failed << ','
+        << i.counts.linearizations << ',' << i.seconds << '\n';
   return out.str();
 }
 

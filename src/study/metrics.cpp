@@ -70,19 +70,23 @@ void CompareCloth(const Reference& reference,
                   const TriangleMesh& true_body,
                   FrameMetrics* m) {
   const Points& truth = reference.truth.cloth[t];
-  if (cloth.vertices.cols() != truth.cols())
+  const Faces& true_faces = reference.cloth_faces;
+  const bool own_mesh = cloth.faces.cols() > 0 && cloth.faces != true_faces;
+  const Faces& faces = own_mesh ? cloth.faces : true_faces;
+  if (!own_mesh && cloth.vertices.cols() != truth.cols())
     throw InputError("frame " + std::to_string(t) + ": the run's cloth has " +
                      std::to_string(cloth.vertices.cols()) +
                      " vertices, expected " + std::to_string(truth.cols()) +
                      " as the truth has");
-  const Faces& faces = reference.cloth_faces;
-  m->cloth_v2v = MeanDistance(cloth.vertices, truth);
-  m->cloth_chamfer = SurfaceChamfer({cloth.vertices, faces}, {truth, faces});
+  if (!own_mesh) m->cloth_v2v = MeanDistance(cloth.vertices, truth);
+  m->cloth_chamfer =
+      SurfaceChamfer({cloth.vertices, faces}, {truth, true_faces});
   const TriangleMesh seen =
       FindVisibleSurface(body, SurfaceIndex(cloth.vertices, faces), kRay).mesh;
   m->combined_chamfer = SurfaceChamfer(
       seen,
-      FindVisibleSurface(true_body, SurfaceIndex(truth, faces), kRay).mesh);
+      FindVisibleSurface(true_body, SurfaceIndex(truth, true_faces), kRay)
+          .mesh);
   if (reference.points)
     m->points_to_surface =
         kMillimetres *

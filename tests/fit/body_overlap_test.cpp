@@ -55,8 +55,8 @@ TEST(BodyOverlap, IsNoneInTheTPoseAndDeepThroughTheTrunk) {
   const BodyOverlap overlap(body);
   EXPECT_GT(overlap.pairs().size(), 20u);
   EXPECT_EQ(overlap.Depths(body.Joints({}), nullptr).maxCoeff(), 0);
-  EXPECT_GT(
-      overlap.Depths(body.Joints(ArmThroughTrunk()), nullptr).maxCoeff(), 0.03);
+  EXPECT_GT(overlap.Depths(body.Joints(ArmThroughTrunk()), nullptr).maxCoeff(),
+            0.03);
 }
 
 TEST(BodyOverlap, GradientOfTheObjectiveMatchesDifferences) {

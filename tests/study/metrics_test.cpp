@@ -261,6 +261,22 @@ TEST_F(MetricsTest, ConeViolationOfKnownForces) {
   EXPECT_NEAR(v.force, std::hypot(1, 0.29) + std::hypot(1, 0.5) + 1, 1e-12);
 }
 
+// A fit may use a coarser garment than the one that was measured.
+TEST_F(MetricsTest, ClothOfAnotherMeshIsComparedAsASurface) {
+  // The same surface with its vertices in another order, and one added.
+  estimate_.cloth = [&](int t) {
+    ClothEstimate cloth;
+    const Points& truth = reference_.truth.cloth[t];
+    cloth.vertices.resize(3, truth.cols() + 1);
+    cloth.vertices << truth.col(0), truth;
+    cloth.faces = reference_.cloth_faces.array() + 1;
+    return std::optional<ClothEstimate>(cloth);
+  };
+  const Metrics metrics = Evaluate(reference_, estimate_);
+  EXPECT_TRUE(std::isnan(metrics.frames[0].cloth_v2v));
+  EXPECT_NEAR(metrics.frames[0].cloth_chamfer.mean(), 0, 1e-9);
+}
+
 TEST_F(MetricsTest, MismatchesAreNamed) {
   cloth_[1] = Points::Zero(3, 3);
   try {

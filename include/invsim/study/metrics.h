@@ -12,7 +12,8 @@
 //   body_v2v_mean_mm           same vertex of the posed body
 //   body_chamfer_l1_mm         posed body to posed body
 //   joint_mean_mm              the 24 posed joints
-//   cloth_v2v_mean_mm          same vertex of the garment
+//   cloth_v2v_mean_mm          same vertex of the garment, if it has the same
+//                              mesh as the truth's
 //   cloth_chamfer_l1_mm        garment to garment
 //   combined_chamfer_l1_mm     what can be seen, garment and bare skin, each
 //                              side by its own garment (visible_surface.h, rays
@@ -50,6 +51,8 @@ namespace invsim {
 struct ClothEstimate {
   Points vertices;              // 3 x N, m
   Points force = Points(3, 0);  // contact force on each, N; none: not known
+  // Of a mesh of its own, coarser than the truth's, say; none: the truth's.
+  Faces faces = Faces(3, 0);
 };
 
 struct Estimate {

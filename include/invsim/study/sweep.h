@@ -44,14 +44,21 @@ struct SweepOptions {
   // What counts as error and as cost: keys of the results.
   std::string error = "";  // "": cloth_rms_mm, with a truth body_v2v_mean_mm
   std::string cost = "";  // "": cpu_per_simulated_second; of a fit wall_seconds
-  // Numbers of the runs' report.json to keep as results.
+  // Numbers of the runs' report.json to keep as results, those that there are.
   std::vector<std::string> report = {"total.steps",
                                      "total.steps_missed",
                                      "total.steps_halved",
                                      "total.factorizations",
                                      "total.solves",
                                      "total.newton_iterations",
-                                     "total.splitting_iterations"};
+                                     "total.splitting_iterations",
+                                     "optimization.iterations",
+                                     "optimization.evaluations",
+                                     "optimization.final_cost",
+                                     "simulation.steps",
+                                     "simulation.steps_missed",
+                                     "simulation.factorizations",
+                                     "simulation.solves"};
   double tolerance = 0.05;  // of "within 5 % of the best error"
 };
 void Describe(OptionTable* table, SweepOptions* options);

@@ -134,14 +134,15 @@ TEST_F(ClothPoints, OneFrameIsExactForASingleFrame) {
   CompareSlopes(Direction(true, true, true), 1, 0);
 }
 
-TEST_F(ClothPoints, OneFrameIsExactWithDistancesToPlanes) {
-  options_.distance = VertexDistance::kPlane;
+TEST_F(ClothPoints, OneFrameIsExactWithDistancesToPoints) {
+  options_.distance = VertexDistance::kPoint;
   CompareSlopes(Direction(true, true, true), 1, 0);
 }
 
 // The plane's distance is never more than the point's.
 TEST_F(ClothPoints, DistancesToPlanesCostLess) {
   std::vector<double> to_points, to_planes;
+  options_.distance = VertexDistance::kPoint;
   MakeTerm(1).Evaluate(First(start_, 1), kNoLimit, &to_points);
   options_.distance = VertexDistance::kPlane;
   MakeTerm(1).Evaluate(First(start_, 1), kNoLimit, &to_planes);

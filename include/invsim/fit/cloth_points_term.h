@@ -11,9 +11,9 @@
 //                      its normal does not meet the simulated cloth
 //   points -> surface  each point to the nearest of cloth and bare skin
 //
-// A vertex's distance is that to its point, or, if asked for, to the plane
-// through it along the surface the points were measured on: sliding along it
-// then costs nothing. Each distance has a robust loss of its own. Costs are in
+// A vertex's distance is that to the plane through its point along the surface
+// the points were measured on, so that sliding along it costs nothing, or, if
+// asked for, to the point itself (the paper's). Each distance has a robust loss of its own. Costs are in
 // units of information: all points of a frame together weigh as `observations`
 // independent measurements of standard deviation `noise`.
 //
@@ -48,7 +48,7 @@ struct ClothPointsOptions {
   double cloth_to_points = 0.3;
   double skin_to_points = 0.3;
   double points_to_surface = 1;
-  VertexDistance distance = VertexDistance::kPoint;
+  VertexDistance distance = VertexDistance::kPlane;
   LeadOptions lead;
   History history = History::kOneFrame;
 };

@@ -13,9 +13,10 @@
 //
 // A vertex's distance is that to the plane through its point along the surface
 // the points were measured on, so that sliding along it costs nothing, or, if
-// asked for, to the point itself (the paper's). Each distance has a robust loss of its own. Costs are in
-// units of information: all points of a frame together weigh as `observations`
-// independent measurements of standard deviation `noise`.
+// asked for, to the point itself (the paper's). Each distance has a robust loss
+// of its own. Costs are in units of information: all points of a frame together
+// weigh as `observations` independent measurements of standard deviation
+// `noise`.
 //
 // Which part of the cloth's past its derivative knows is `History`; what is
 // left out is left out of derivatives only, never of the cost.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "invsim/algebra/anderson.h"
+#include "invsim/algebra/cholesky_preconditioner.h"
 #include "invsim/algebra/gmres.h"
 #include "invsim/algebra/sparse_cholesky.h"
 #include "invsim/base/stopwatch.h"
@@ -15,26 +17,45 @@ namespace {
 
 // Newton has stagnated if its residual did not halve in so many iterations.
 constexpr int kPatience = 3;
+// rho in units of a vertex's own diagonal of A. Splitting without acceleration
+// is fastest near 1, accelerated near 0.25 (docs/performance.md).
+constexpr double kRho = 0.25;
+// Differences that the acceleration of splitting remembers.
+constexpr int kMemory = 15;
 
 }  // namespace
 
 struct FrictionSolver::Impl {
   explicit Impl(std::shared_ptr<const BlockPattern> p)
-      : pattern(p), cholesky(p), augmented(p), jacobian(p) {}
+      : pattern(p),
+        single(p),
+        augmented(p),
+        anderson(kMemory),
+        jacobian(p) {}
 
   void Prepare();
   bool Factor();
-  void PreconditionedSolve(VectorXd* z);
-  void Admm(int iterations);
+  void Precondition(VectorXd* z);
+  void StartSplitting();
+  void SplittingStep();
+  bool Split(int iterations);
   double Evaluate();
+  void Linearize();
   void ApplyJacobian(const VectorXd& z, VectorXd* out) const;
   bool NewtonStep(bool factored, VectorXd* step);
   bool Newton();
   void CountModes();
 
   std::shared_ptr<const BlockPattern> pattern;
-  SparseCholesky cholesky;
+  // The factor of P: in single precision, or in double if that failed.
+  CholeskyPreconditioner single;
+  std::unique_ptr<SparseCholesky> cholesky;
+  bool in_double = false;
   BlockMatrix augmented;  // P
+  // Of splitting: sqrt(rho) q of all contacts, its image, and the corrections
+  // of v.
+  AndersonAcceleration anderson;
+  VectorXd q, image, correction;
   FrictionJacobian jacobian;
 
   FrictionProblem problem;
@@ -42,11 +63,15 @@ struct FrictionSolver::Impl {
   FrictionStats stats;
   VectorXd v;
   std::vector<Vector3d> forces;
-  std::vector<double> rho;
+  // Per contact: the vertex's own diagonal of A (with compliance), in which
+  // velocities are turned into forces, and splitting's part of it.
+  std::vector<double> delassus_inverse, rho;
   std::vector<int> exact_on;  // per vertex: its exact contact, or -1
 
-  // At the current v: g = A v - b - compliant forces, and the linearisation.
+  // At the current v: A v and g = A v - b - compliant forces.
+  VectorXd av;
   VectorXd g;
+  // The linearisation there.
   VectorXd residual;
   std::vector<ContactLinearization> exact;     // of exact contacts
   std::vector<CompliantDerivative> compliant;  // of the others
@@ -58,6 +83,7 @@ FrictionSolver::~FrictionSolver() = default;
 
 void FrictionSolver::Impl::Prepare() {
   const auto& contacts = *problem.contacts;
+  delassus_inverse.resize(contacts.size());
   rho.resize(contacts.size());
   exact_on.assign(pattern->size, -1);
   for (size_t k = 0; k < contacts.size(); ++k) {
@@ -66,7 +92,8 @@ void FrictionSolver::Impl::Prepare() {
     for (int j = 0; j < c.num_vertices; ++j)
       delassus += c.weight[j] * c.weight[j] * 3 /
                   problem.a->diagonal(c.vertex[j]).trace();
-    rho[k] = 1 / (delassus + c.compliance);
+    delassus_inverse[k] = 1 / (delassus + c.compliance);
+    rho[k] = kRho * delassus_inverse[k];
     if (c.exact()) exact_on[c.vertex[0]] = static_cast<int>(k);
   }
   exact.resize(contacts.size());
@@ -84,89 +111,148 @@ bool FrictionSolver::Impl::Factor() {
             .array() += rho[k] * c.weight[i] * c.weight[j];
   }
   const Stopwatch watch;
-  const bool ok = cholesky.Factor(augmented);
+  bool ok = single.Factor(augmented);
+  in_double = !ok;
+  if (in_double) {
+    if (!cholesky) cholesky = std::make_unique<SparseCholesky>(pattern);
+    ok = cholesky->Factor(augmented);
+  }
   stats.factor_seconds += watch.seconds();
   ++stats.factorizations;
   stats.factorization_failed = !ok;
   return ok;
 }
 
-void FrictionSolver::Impl::PreconditionedSolve(VectorXd* z) {
-  cholesky.Solve(z);
+void FrictionSolver::Impl::Precondition(VectorXd* z) {
+  if (in_double) {
+    cholesky->Solve(z);
+  } else {
+    single.Solve(z);
+  }
   ++stats.solves;
 }
 
-// min 1/2 v^T A v - b^T v with the contact law on z = G v - w, multipliers the
-// contact forces. With r fixed, v = P^{-1} (b + sum G^T (rho (z + w) + r));
-// then z and the new r follow from u = q + r/rho with q = G v - w - r_old/rho.
-void FrictionSolver::Impl::Admm(int iterations) {
+void FrictionSolver::Impl::StartSplitting() {
   const auto& contacts = *problem.contacts;
-  std::vector<Vector3d> z(contacts.size());
-  for (size_t k = 0; k < contacts.size(); ++k)
-    z[k] = contacts[k].Gather(v) - contacts[k].velocity;
-  for (int it = 0; it < iterations; ++it) {
-    v = *problem.b;
-    for (size_t k = 0; k < contacts.size(); ++k) {
-      const Contact& c = contacts[k];
-      c.Scatter(rho[k] * (z[k] + c.velocity) + forces[k], &v);
-    }
-    PreconditionedSolve(&v);
-    ++stats.admm_iterations;
-    for (size_t k = 0; k < contacts.size(); ++k) {
-      const Contact& c = contacts[k];
-      const Vector3d q = c.Gather(v) - c.velocity - forces[k] / rho[k];
-      forces[k] = c.kind == ContactKind::kPin
-                      ? Vector3d(-rho[k] * q)
-                      : CompliantForce(
-                            c.normal, c.friction, 1 / rho[k] + c.compliance, q);
-      z[k] = q + forces[k] / rho[k];
-    }
+  q.resize(3 * contacts.size());
+  image.resize(q.size());
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    q.segment<3>(3 * k) =
+        std::sqrt(rho[k]) *
+        (c.Gather(v) - c.velocity - forces[k] / rho[k]);
   }
+  anderson.Reset();
 }
 
-// Fills g, residual and the linearisations; returns the reported residual.
+// Douglas-Rachford splitting, which is ADMM on
+//
+//   min 1/2 v^T A v - b^T v   with the contact law on z = G v - w,
+//
+// as a fixed point of q = z - r/rho: the law with u = q + r/rho gives r and
+// z = u, then P v = b + sum G^T (rho (z + w) + r), and q moves by G v - w - z.
+// P is solved by one step of refinement from the last v, so that the precision
+// of its factor is no limit: as q settles, so does v, on the exact solution.
+void FrictionSolver::Impl::SplittingStep() {
+  const auto& contacts = *problem.contacts;
+  correction = *problem.b - av;
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    const double root = std::sqrt(rho[k]);
+    const Vector3d at = q.segment<3>(3 * k) / root;
+    const Vector3d r =
+        c.kind == ContactKind::kPin
+            ? Vector3d(-rho[k] * at)
+            : CompliantForce(
+                  c.normal, c.friction, 1 / rho[k] + c.compliance, at);
+    const Vector3d z = at + r / rho[k];
+    c.Scatter(rho[k] * (z + c.velocity - c.Gather(v)) + r, &correction);
+    image.segment<3>(3 * k) = q.segment<3>(3 * k) - root * (z + c.velocity);
+  }
+  Precondition(&correction);
+  v += correction;
+  for (size_t k = 0; k < contacts.size(); ++k)
+    image.segment<3>(3 * k) += std::sqrt(rho[k]) * contacts[k].Gather(v);
+  ++stats.admm_iterations;
+}
+
+// True once the problem is solved; else v is the best that was met.
+bool FrictionSolver::Impl::Split(int iterations) {
+  VectorXd best = v;
+  double least = std::numeric_limits<double>::infinity();
+  StartSplitting();
+  av = *problem.a * v;
+  for (int it = 0; it < iterations; ++it) {
+    SplittingStep();
+    stats.residual = Evaluate();
+    if (stats.residual <= options.tolerance) return true;
+    if (!std::isfinite(stats.residual)) break;
+    if (stats.residual < least) {
+      least = stats.residual;
+      best = v;
+    }
+    if (q.size() > 0) anderson.Next(image, &q);
+  }
+  v = best;
+  return false;
+}
+
+// Fills av, g and the forces; returns the reported residual.
 double FrictionSolver::Impl::Evaluate() {
   const auto& contacts = *problem.contacts;
-  const VectorXd& weight = *problem.weight;
-  g = *problem.a * v - *problem.b;
+  av = *problem.a * v;
+  g = av - *problem.b;
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     if (c.exact()) continue;
-    const Vector3d q = c.Gather(v) - c.velocity;
-    forces[k] = CompliantForce(c.normal, c.friction, c.compliance, q);
-    compliant[k] =
-        DifferentiateCompliantForce(c.normal, c.friction, c.compliance, q);
+    const Vector3d at = c.Gather(v) - c.velocity;
+    forces[k] = CompliantForce(c.normal, c.friction, c.compliance, at);
     c.Scatter(-forces[k], &g);
   }
-  residual = g;
   double worst = 0;
   for (int i = 0; i < pattern->size; ++i) {
     const int k = exact_on[i];
-    double error;
-    if (k < 0) {
-      error = g.segment<3>(3 * i).norm();
-    } else {
+    const Vector3d r = g.segment<3>(3 * i);
+    double error = r.norm();
+    if (k >= 0) {
       const Contact& c = contacts[k];
-      const Vector3d r = g.segment<3>(3 * i);
       const Vector3d u = v.segment<3>(3 * i) - c.velocity;
       forces[k] = r;
-      if (c.kind == ContactKind::kPin) {
-        exact[k] = {ContactMode::kStick,
-                    Matrix3d::Zero(),
-                    rho[k] * Matrix3d::Identity(),
-                    rho[k] * u,
-                    Matrix3d::Zero()};
-        error = rho[k] * u.norm();
-      } else {
-        exact[k] = LinearizeAlartCurnier(c.normal, c.friction, rho[k], r, u);
-        error = FischerBurmeister(c.normal, c.friction, rho[k], r, u).norm();
-      }
-      residual.segment<3>(3 * i) = exact[k].residual;
+      error = c.kind == ContactKind::kPin
+                  ? delassus_inverse[k] * u.norm()
+                  : FischerBurmeister(
+                        c.normal, c.friction, delassus_inverse[k], r, u)
+                        .norm();
     }
-    worst = std::max(worst, error / weight[i]);
+    worst = std::max(worst, error / (*problem.weight)[i]);
     if (!std::isfinite(error)) return std::numeric_limits<double>::infinity();
   }
   return worst;
+}
+
+// Fills residual and the linearisations where Evaluate was called.
+void FrictionSolver::Impl::Linearize() {
+  const auto& contacts = *problem.contacts;
+  residual = g;
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    const Vector3d u = c.Gather(v) - c.velocity;
+    if (!c.exact()) {
+      compliant[k] =
+          DifferentiateCompliantForce(c.normal, c.friction, c.compliance, u);
+      continue;
+    }
+    const double scale = delassus_inverse[k];
+    exact[k] =
+        c.kind == ContactKind::kPin
+            ? ContactLinearization{ContactMode::kStick,
+                                   Matrix3d::Zero(),
+                                   scale * Matrix3d::Identity(),
+                                   scale * u,
+                                   Matrix3d::Zero()}
+            : LinearizeAlartCurnier(c.normal, c.friction, scale, forces[k], u);
+    residual.segment<3>(3 * c.vertex[0]) = exact[k].residual;
+  }
 }
 
 void FrictionSolver::Impl::ApplyJacobian(const VectorXd& z,
@@ -234,8 +320,10 @@ bool FrictionSolver::Impl::Newton() {
       ++since;
     }
     if (it == options.newton_iterations || since >= kPatience ||
-        !std::isfinite(stats.residual) || !NewtonStep(it > 0, &step))
+        !std::isfinite(stats.residual))
       break;
+    Linearize();
+    if (!NewtonStep(it > 0, &step)) break;
     v -= step;
     ++stats.newton_iterations;
   }
@@ -270,16 +358,12 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
   const double first = s.stats.factor_seconds;
   const Stopwatch watch;
   for (int attempt = 0; attempt <= options.retries; ++attempt) {
-    if (problem.contacts->empty()) {
-      s.v = *problem.b;
-      s.PreconditionedSolve(&s.v);
-    } else {
-      s.Admm(options.admm_iterations << attempt);
-    }
-    s.stats.converged = s.Newton();
+    s.stats.converged =
+        s.Split(options.admm_iterations << attempt) || s.Newton();
     if (s.stats.converged) break;
   }
   s.stats.solve_seconds = watch.seconds() - s.stats.factor_seconds + first;
+  s.Linearize();
   s.CountModes();
   *v = s.v;
   *forces = s.forces;

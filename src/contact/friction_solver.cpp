@@ -20,6 +20,8 @@ constexpr int kPatience = 3;
 // rho in units of a vertex's own diagonal of A. Splitting without acceleration
 // is fastest near 1, accelerated near 0.25 (docs/performance.md).
 constexpr double kRho = 0.25;
+// Refinement goes on while a step leaves less than this of the residual.
+constexpr double kRefinement = 0.1;
 // Differences that the acceleration of splitting remembers.
 constexpr int kMemory = 15;
 
@@ -38,6 +40,7 @@ struct FrictionSolver::Impl {
   void Precondition(VectorXd* z);
   void StartSplitting();
   void SplittingStep();
+  bool Refine();
   bool Split(int iterations);
   double Evaluate();
   void Linearize();
@@ -176,6 +179,21 @@ void FrictionSolver::Impl::SplittingStep() {
   ++stats.admm_iterations;
 }
 
+// Without contact a step is one of plain refinement: on to the last digit.
+bool FrictionSolver::Impl::Refine() {
+  double now = std::numeric_limits<double>::infinity();
+  double last;
+  StartSplitting();
+  av = *problem.a * v;
+  do {
+    last = now;
+    SplittingStep();
+    now = Evaluate();
+  } while (now < kRefinement * last);
+  stats.residual = now;
+  return stats.residual <= options.tolerance;
+}
+
 // True once the problem is solved; else v is the best that was met.
 bool FrictionSolver::Impl::Split(int iterations) {
   VectorXd best = v;
@@ -191,7 +209,7 @@ bool FrictionSolver::Impl::Split(int iterations) {
       least = stats.residual;
       best = v;
     }
-    if (q.size() > 0) anderson.Next(image, &q);
+    anderson.Next(image, &q);
   }
   v = best;
   return false;
@@ -358,8 +376,10 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
   const double first = s.stats.factor_seconds;
   const Stopwatch watch;
   for (int attempt = 0; attempt <= options.retries; ++attempt) {
-    s.stats.converged =
-        s.Split(options.admm_iterations << attempt) || s.Newton();
+    const bool split = problem.contacts->empty()
+                           ? s.Refine()
+                           : s.Split(options.admm_iterations << attempt);
+    s.stats.converged = split || s.Newton();
     if (s.stats.converged) break;
   }
   s.stats.solve_seconds = watch.seconds() - s.stats.factor_seconds + first;

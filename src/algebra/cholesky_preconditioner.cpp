@@ -84,9 +84,9 @@ void CholeskyPreconditioner::Impl::Update(const Supernode& target,
   Panel p(product.data(), m, width);
   p.noalias() = l.bottomRows(m) * l.middleRows(i1, width).transpose();
   for (int c = 0; c < width; ++c) {
-    float* to = values.data() + target.offset +
-                static_cast<size_t>(source.rows[i1 + c] - target.first) *
-                    target.height;
+    float* to =
+        values.data() + target.offset +
+        static_cast<size_t>(source.rows[i1 + c] - target.first) * target.height;
     const float* from = p.col(c).data();
     for (int r = c; r < m; ++r) to[position[source.rows[i1 + r]]] -= from[r];
   }
@@ -120,8 +120,7 @@ bool CholeskyPreconditioner::Factor(const BlockMatrix& a) {
   if (!s.Load(a)) return false;
   return s.supernodes.ForEach(
       [&](const Supernode& target) {
-        for (int r = 0; r < target.height; ++r)
-          s.position[target.rows[r]] = r;
+        for (int r = 0; r < target.height; ++r) s.position[target.rows[r]] = r;
       },
       [&](const Supernode& target, const Supernode& source, int i1) {
         s.Update(target, source, i1);

@@ -29,11 +29,7 @@ constexpr int kMemory = 15;
 
 struct FrictionSolver::Impl {
   explicit Impl(std::shared_ptr<const BlockPattern> p)
-      : pattern(p),
-        single(p),
-        augmented(p),
-        anderson(kMemory),
-        jacobian(p) {}
+      : pattern(p), single(p), augmented(p), anderson(kMemory), jacobian(p) {}
 
   void Prepare();
   bool Factor();
@@ -142,8 +138,7 @@ void FrictionSolver::Impl::StartSplitting() {
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     q.segment<3>(3 * k) =
-        std::sqrt(rho[k]) *
-        (c.Gather(v) - c.velocity - forces[k] / rho[k]);
+        std::sqrt(rho[k]) * (c.Gather(v) - c.velocity - forces[k] / rho[k]);
   }
   anderson.Reset();
 }

@@ -27,10 +27,10 @@ void Describe(OptionTable* table, FrictionOptions* o) {
                      "step is solved",
               .unit = "vertex weights",
               .above = 0});
-  table->Add("admm_iterations",
-             &o->admm_iterations,
-             {.doc = "splitting iterations, at most, before Newton",
-              .at_least = 0});
+  table->Add(
+      "admm_iterations",
+      &o->admm_iterations,
+      {.doc = "splitting iterations, at most, before Newton", .at_least = 0});
   table->Add("newton_iterations",
              &o->newton_iterations,
              {.doc = "semismooth Newton iterations before splitting is asked "

@@ -34,8 +34,8 @@ class AndersonAcceleration {
   VectorXd Coefficients(const VectorXd& f) const;
 
   int memory_;
-  int count_ = 0;       // differences remembered since the last reset
-  bool have_ = false;   // whether last_f_, last_image_ are set
+  int count_ = 0;      // differences remembered since the last reset
+  bool have_ = false;  // whether last_f_, last_image_ are set
   double norm_ = 0;
   VectorXd last_f_, last_image_;
   MatrixXd df_, dt_;  // a difference per column, the oldest overwritten

@@ -12,6 +12,20 @@ int BlockPattern::Find(int i, int j) const {
   return it != last && *it == j ? static_cast<int>(it - column.begin()) : -1;
 }
 
+bool BlockPattern::Holds(std::span<const int> vertices) const {
+  for (const int i : vertices)
+    for (const int j : vertices)
+      if (Find(i, j) < 0) return false;
+  return true;
+}
+
+BlockPatternBuilder::BlockPatternBuilder(const BlockPattern& pattern)
+    : neighbours_(pattern.size) {
+  for (int i = 0; i < pattern.size; ++i)
+    neighbours_[i].assign(pattern.column.begin() + pattern.row_start[i],
+                          pattern.column.begin() + pattern.row_start[i + 1]);
+}
+
 void BlockPatternBuilder::AddStencil(std::span<const int> vertices) {
   for (int i : vertices)
     for (int j : vertices)
@@ -41,6 +55,22 @@ BlockMatrix::BlockMatrix(std::shared_ptr<const BlockPattern> pattern)
 }
 
 void BlockMatrix::SetZero() { std::fill(values_.begin(), values_.end(), 0.0); }
+
+void BlockMatrix::Assign(const BlockMatrix& a) {
+  if (pattern_ == a.pattern_) {
+    values_ = a.values_;
+    return;
+  }
+  SetZero();
+  const BlockPattern& from = *a.pattern_;
+  for (int i = 0; i < from.size; ++i) {
+    int to = pattern_->row_start[i];
+    for (int k = from.row_start[i]; k < from.row_start[i + 1]; ++k) {
+      while (pattern_->column[to] != from.column[k]) ++to;
+      std::copy_n(a.values_.data() + 9 * k, 9, values_.data() + 9 * to);
+    }
+  }
+}
 
 void BlockMatrix::Multiply(const Columns& x, Columns* y) const {
   y->setZero(x.rows(), x.cols());

@@ -21,7 +21,18 @@ void Transform(const Matrix3d& m, int i, Columns* x) {
 }  // namespace
 
 FrictionJacobian::FrictionJacobian(std::shared_ptr<const BlockPattern> pattern)
-    : momentum_(pattern), jacobian_(pattern) {}
+    : pattern_(pattern), momentum_(pattern), jacobian_(pattern) {}
+
+void FrictionJacobian::UsePattern() {
+  momentum_ = BlockMatrix(pattern_.pattern());
+  jacobian_ = momentum_;
+  cholesky_.reset();
+  lu_.reset();
+}
+
+void FrictionJacobian::Forget() {
+  if (pattern_.Reset()) UsePattern();
+}
 
 void FrictionJacobian::Linearize(const std::vector<Contact>& contacts,
                                  const VectorXd& v,
@@ -55,13 +66,14 @@ void FrictionJacobian::Linearize(const std::vector<Contact>& contacts,
 }
 
 void FrictionJacobian::AssembleCompliant(const BlockMatrix& a) {
-  momentum_ = a;
+  momentum_.Assign(a);
+  const BlockPattern& p = *pattern_.pattern();
   for (size_t k = 0; k < contacts_.size(); ++k) {
     const Contact& c = contacts_[k];
     if (c.exact()) continue;
     for (int i = 0; i < c.num_vertices; ++i)
       for (int j = 0; j < c.num_vertices; ++j)
-        momentum_.block(a.pattern().Find(c.vertex[i], c.vertex[j])) -=
+        momentum_.block(p.Find(c.vertex[i], c.vertex[j])) -=
             c.weight[i] * c.weight[j] * compliant_[k].dq;
   }
 }
@@ -70,10 +82,11 @@ bool FrictionJacobian::Factor(const BlockMatrix& a,
                               const std::vector<Contact>& contacts,
                               const VectorXd& v,
                               const std::vector<Vector3d>& forces) {
+  if (pattern_.Cover(contacts)) UsePattern();
   Linearize(contacts, v, forces, a);
   AssembleCompliant(a);
   jacobian_ = momentum_;
-  const BlockPattern& p = a.pattern();
+  const BlockPattern& p = *pattern_.pattern();
   for (size_t k = 0; k < contacts_.size(); ++k) {
     if (!contacts_[k].exact()) continue;
     const int i = contacts_[k].vertex[0];
@@ -88,10 +101,10 @@ bool FrictionJacobian::Factor(const BlockMatrix& a,
   }
   if (symmetric_) {
     if (!cholesky_)
-      cholesky_ = std::make_unique<SparseCholesky>(a.shared_pattern());
+      cholesky_ = std::make_unique<SparseCholesky>(pattern_.pattern());
     return cholesky_->Factor(jacobian_);
   }
-  if (!lu_) lu_ = std::make_unique<SparseLu>(a.shared_pattern());
+  if (!lu_) lu_ = std::make_unique<SparseLu>(pattern_.pattern());
   return lu_->Factor(jacobian_);
 }
 

@@ -10,6 +10,7 @@
 #include "invsim/algebra/gmres.h"
 #include "invsim/algebra/sparse_cholesky.h"
 #include "invsim/base/stopwatch.h"
+#include "invsim/contact/contact_pattern.h"
 #include "invsim/contact/friction_jacobian.h"
 
 namespace invsim {
@@ -31,6 +32,7 @@ struct FrictionSolver::Impl {
   explicit Impl(std::shared_ptr<const BlockPattern> p)
       : pattern(p), single(p), augmented(p), anderson(kMemory), jacobian(p) {}
 
+  void UsePattern();
   void Prepare();
   bool Factor();
   void Precondition(VectorXd* z);
@@ -45,7 +47,7 @@ struct FrictionSolver::Impl {
   bool Newton();
   void CountModes();
 
-  std::shared_ptr<const BlockPattern> pattern;
+  ContactPattern pattern;  // of P
   // The factor of P: in single precision, or in double if that failed.
   CholeskyPreconditioner single;
   std::unique_ptr<SparseCholesky> cholesky;
@@ -80,11 +82,19 @@ FrictionSolver::FrictionSolver(std::shared_ptr<const BlockPattern> pattern)
     : impl_(std::make_unique<Impl>(std::move(pattern))) {}
 FrictionSolver::~FrictionSolver() = default;
 
+// Analyses the pattern anew after it changed.
+void FrictionSolver::Impl::UsePattern() {
+  single = CholeskyPreconditioner(pattern.pattern());
+  augmented = BlockMatrix(pattern.pattern());
+  cholesky.reset();
+}
+
 void FrictionSolver::Impl::Prepare() {
   const auto& contacts = *problem.contacts;
   delassus_inverse.resize(contacts.size());
   rho.resize(contacts.size());
-  exact_on.assign(pattern->size, -1);
+  exact_on.assign(problem.a->size(), -1);
+  if (pattern.Cover(contacts)) UsePattern();
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     double delassus = 0;
@@ -100,20 +110,21 @@ void FrictionSolver::Impl::Prepare() {
 }
 
 bool FrictionSolver::Impl::Factor() {
-  augmented = *problem.a;
+  augmented.Assign(*problem.a);
+  const BlockPattern& p = *pattern.pattern();
   for (size_t k = 0; k < rho.size(); ++k) {
     const Contact& c = (*problem.contacts)[k];
     for (int i = 0; i < c.num_vertices; ++i)
       for (int j = 0; j < c.num_vertices; ++j)
-        augmented.block(pattern->Find(c.vertex[i], c.vertex[j]))
-            .diagonal()
-            .array() += rho[k] * c.weight[i] * c.weight[j];
+        augmented.block(p.Find(c.vertex[i], c.vertex[j])).diagonal().array() +=
+            rho[k] * c.weight[i] * c.weight[j];
   }
   const Stopwatch watch;
   bool ok = single.Factor(augmented);
   in_double = !ok;
   if (in_double) {
-    if (!cholesky) cholesky = std::make_unique<SparseCholesky>(pattern);
+    if (!cholesky)
+      cholesky = std::make_unique<SparseCholesky>(pattern.pattern());
     ok = cholesky->Factor(augmented);
   }
   stats.factor_seconds += watch.seconds();
@@ -223,7 +234,7 @@ double FrictionSolver::Impl::Evaluate() {
     c.Scatter(-forces[k], &g);
   }
   double worst = 0;
-  for (int i = 0; i < pattern->size; ++i) {
+  for (int i = 0; i < problem.a->size(); ++i) {
     const int k = exact_on[i];
     const Vector3d r = g.segment<3>(3 * i);
     double error = r.norm();
@@ -354,6 +365,11 @@ void FrictionSolver::Impl::CountModes() {
        : mode == ContactMode::kStick ? stats.stick
                                      : stats.slide);
   }
+}
+
+void FrictionSolver::Forget() {
+  if (impl_->pattern.Reset()) impl_->UsePattern();
+  impl_->jacobian.Forget();
 }
 
 FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,

@@ -31,6 +31,21 @@ TEST(BlockMatrix, ProductsEqualDense) {
   EXPECT_LT((a * v - dense * v).norm(), 1e-12 * y.norm());
 }
 
+TEST(BlockMatrix, AssignsToAWiderPattern) {
+  const BlockMatrix a = RandomMatrix(4, 0.5, 2);
+  BlockPatternBuilder builder(a.pattern());
+  const std::array<int, 3> stencil = {0, 7, 15};
+  EXPECT_FALSE(a.pattern().Holds(stencil));
+  builder.AddStencil(stencil);
+  const auto wider = builder.Build();
+  EXPECT_TRUE(wider->Holds(stencil));
+  EXPECT_EQ(wider->num_blocks(), a.pattern().num_blocks() + 6);
+  BlockMatrix b(wider);
+  b.block(wider->Find(0, 15)).setOnes();
+  b.Assign(a);
+  EXPECT_EQ(Dense(b), Dense(a));
+}
+
 TEST(BlockMatrix, AddScaled) {
   BlockMatrix a = RandomMatrix(4, 0.0, 1);
   const BlockMatrix b = RandomMatrix(4, 0.5, 2);

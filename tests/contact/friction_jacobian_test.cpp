@@ -11,8 +11,11 @@
 namespace invsim {
 namespace {
 
+constexpr int kContacts = 5;
+
 // Nine vertices, four of them pressed against planes: with friction one
-// sticks and one slides, without it all slide; the last pair shares a vertex.
+// sticks and one slides, without it all slide; the last pair shares a
+// vertex. A last contact is of three vertices with each other.
 class FrictionJacobianTest : public testing::TestWithParam<double> {
  protected:
   FrictionJacobianTest() : a_(RandomMatrix(3, 0, 5)) {
@@ -29,6 +32,15 @@ class FrictionJacobianTest : public testing::TestWithParam<double> {
     }
     contacts_[2].normal = Vector3d(1, 1, 0).normalized();
     contacts_[2].compliance = contacts_[3].compliance = 1e-2;
+    Contact pair;  // of vertices that A does not couple
+    pair.num_vertices = 3;
+    pair.vertex = {6, 1, 2, -1};
+    pair.weight = {1, -0.3, -0.7, 0};
+    pair.normal = Vector3d(0.6, 0, 0.8);
+    pair.velocity = 1.5 * pair.normal;
+    pair.friction = GetParam();
+    pair.compliance = 1e-2;
+    contacts_.push_back(pair);
   }
   VectorXd Solve(const VectorXd& b, const std::vector<Contact>& contacts) {
     VectorXd v = VectorXd::Zero(27);
@@ -63,9 +75,9 @@ TEST_P(FrictionJacobianTest, ForwardIsTheDerivativeOfTheSolution) {
   FrictionJacobian jacobian(a_.shared_pattern());
   ASSERT_TRUE(jacobian.Factor(a_, contacts_, v, forces_));
   EXPECT_EQ(jacobian.symmetric(), GetParam() == 0);
-  const Columns db = Random(27, 1), dw = Random(12, 2);
-  Columns dn = Random(12, 3);
-  for (int k = 0; k < 4; ++k) {  // a normal stays of length one
+  const Columns db = Random(27, 1), dw = Random(3 * kContacts, 2);
+  Columns dn = Random(3 * kContacts, 3);
+  for (int k = 0; k < kContacts; ++k) {  // a normal stays of length one
     const Vector3d n = contacts_[k].normal;
     const Vector3d d = dn.block<3, 1>(3 * k, 0);
     dn.block<3, 1>(3 * k, 0) = d - n * n.dot(d);
@@ -74,7 +86,7 @@ TEST_P(FrictionJacobianTest, ForwardIsTheDerivativeOfTheSolution) {
   jacobian.Forward(dn, dw, &derivative);
   const auto moved = [&](double h) {
     std::vector<Contact> contacts = contacts_;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < kContacts; ++k) {
       contacts[k].velocity += h * dw.block<3, 1>(3 * k, 0);
       contacts[k].normal =
           (contacts[k].normal + h * dn.block<3, 1>(3 * k, 0)).normalized();
@@ -91,11 +103,13 @@ TEST_P(FrictionJacobianTest, AdjointIsTheTranspose) {
   const VectorXd v = Solve(b_, contacts_);
   FrictionJacobian jacobian(a_.shared_pattern());
   ASSERT_TRUE(jacobian.Factor(a_, contacts_, v, forces_));
-  const Columns db = Random(27, 4), dn = Random(12, 5), dw = Random(12, 6);
+  const Columns db = Random(27, 4), dn = Random(3 * kContacts, 5),
+                dw = Random(3 * kContacts, 6);
   const Columns weights = Random(27, 7);
   Columns forward = db;
   jacobian.Forward(dn, dw, &forward);
-  Columns z = weights, n = Columns::Zero(12, 1), w = Columns::Zero(12, 1);
+  Columns z = weights, n = Columns::Zero(3 * kContacts, 1),
+          w = Columns::Zero(3 * kContacts, 1);
   jacobian.Adjoint(&z, &n, &w);
   const double one = weights.cwiseProduct(forward).sum();
   const double other = z.cwiseProduct(db).sum() + n.cwiseProduct(dn).sum() +

@@ -167,6 +167,38 @@ TEST_F(FrictionSolverTest, SharedAndTwoSidedContacts) {
               1e-9);
 }
 
+// Contacts between vertices that no effect couples: a sheet whose halves are
+// pressed onto each other. What one half gains the other loses.
+TEST_F(FrictionSolverTest, ContactsCoupleVerticesThatAreNoNeighbours) {
+  const int n = 8;
+  Build(n, 3.0);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n / 2 - 1; ++j) {
+      Contact c;
+      c.num_vertices = 3;
+      const int across = i * n + n - 1 - j;
+      c.vertex = {i * n + j, across, across - 1, -1};
+      c.weight = {1, -0.4, -0.6, 0};
+      c.friction = 0.3;
+      c.compliance = 0.001 * kDt / kMass;
+      contacts_.push_back(c);
+    }
+  }
+  for (int i = 0; i < size_; ++i)
+    b_.segment<3>(3 * i) =
+        kMass * kGravity * Vector3d(0.2 * (i % 3), i % n < n / 2 ? -1 : 1, 0);
+  const FrictionStats stats = Solve();
+  EXPECT_TRUE(stats.converged) << stats.residual;
+  EXPECT_LT(Residual(), 1e-8);
+  EXPECT_GT(stats.stick + stats.slide, n);
+  VectorXd sum = VectorXd::Zero(3 * size_);
+  for (size_t k = 0; k < contacts_.size(); ++k)
+    contacts_[k].Scatter(forces_[k], &sum);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(
+        Eigen::Map<Points>(sum.data(), 3, size_).row(c).sum(), 0, 1e-12);
+}
+
 TEST_F(FrictionSolverTest, PinsHoldAgainstAnyForce) {
   Build(4, 3.0);
   Contact pin;

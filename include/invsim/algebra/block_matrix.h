@@ -26,12 +26,16 @@ struct BlockPattern {
   int num_blocks() const { return static_cast<int>(column.size()); }
   // Position of block (i, j) in `column`, or -1.
   int Find(int i, int j) const;
+  // Whether every pair within a tuple of vertices has its block.
+  bool Holds(std::span<const int> vertices) const;
 };
 
 // Collects vertex tuples; every pair within a tuple becomes a block.
 class BlockPatternBuilder {
  public:
   explicit BlockPatternBuilder(int size) : neighbours_(size) {}
+  // Starts with the blocks of `pattern`.
+  explicit BlockPatternBuilder(const BlockPattern& pattern);
   void AddStencil(std::span<const int> vertices);
   std::shared_ptr<const BlockPattern> Build() const;
 
@@ -51,6 +55,9 @@ class BlockMatrix {
   int size() const { return pattern_ ? pattern_->size : 0; }
 
   void SetZero();
+  // The values of `a`, whose pattern is this one or a part of it; zero where
+  // `a` has no block.
+  void Assign(const BlockMatrix& a);
   // Block number `k` of the pattern. Blocks are stored one after the other,
   // each column-major.
   Eigen::Map<Matrix3d> block(int k) {

@@ -25,12 +25,14 @@
 #include "invsim/algebra/sparse_cholesky.h"
 #include "invsim/algebra/sparse_lu.h"
 #include "invsim/contact/contact.h"
+#include "invsim/contact/contact_pattern.h"
 #include "invsim/contact/coulomb.h"
 
 namespace invsim {
 
 class FrictionJacobian {
  public:
+  // `pattern` of A. Contacts may couple vertices that it does not.
   explicit FrictionJacobian(std::shared_ptr<const BlockPattern> pattern);
 
   // J at `v`, with the contacts' `forces` there. False if J is singular.
@@ -53,6 +55,9 @@ class FrictionJacobian {
 
   bool symmetric() const { return symmetric_; }
 
+  // Forgets which contacts there were (contact/contact_pattern.h).
+  void Forget();
+
  private:
   struct Row {
     Matrix3d p, q, n;
@@ -62,6 +67,9 @@ class FrictionJacobian {
                  const std::vector<Vector3d>& forces,
                  const BlockMatrix& a);
   void AssembleCompliant(const BlockMatrix& a);
+  void UsePattern();
+
+  ContactPattern pattern_;
   std::vector<Contact> contacts_;
   std::vector<Row> exact_;                      // of exact contacts
   std::vector<CompliantDerivative> compliant_;  // of the others

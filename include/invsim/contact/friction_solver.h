@@ -67,6 +67,7 @@ struct FrictionProblem {
 
 class FrictionSolver {
  public:
+  // `pattern` of A. Contacts may couple vertices that it does not.
   explicit FrictionSolver(std::shared_ptr<const BlockPattern> pattern);
   ~FrictionSolver();
 
@@ -75,6 +76,10 @@ class FrictionSolver {
                       const FrictionOptions& options,
                       VectorXd* v,
                       std::vector<Vector3d>* forces);
+
+  // Forgets which contacts there were, of which only the pattern of the
+  // factorised matrix remains (contact/contact_pattern.h).
+  void Forget();
 
  private:
   struct Impl;

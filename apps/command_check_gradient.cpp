@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "effects.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
 #include "invsim/report/run_folder.h"
@@ -244,6 +245,11 @@ ExitCode CheckGradientCommand::Run(const CommandContext& context) {
                      input_.motion.name + " has only frames 0 to " +
                      std::to_string(scene.motion.num_frames() - 1));
   UseMaterialFriction(*context.options, scene.material, &scene_);
+  DecideSceneEffects(
+      {scene.body, scene.garment, scene.frames, scene.motion.frame_rate},
+      scene.material,
+      relaxation_,
+      &scene_);
   std::unique_ptr<RunFolder> folder;
   if (!context.out.empty())
     folder = std::make_unique<RunFolder>(context.out, force_);

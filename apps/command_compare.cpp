@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "command.h"
+#include "effects.h"
 #include "fit_inputs.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
@@ -83,6 +84,7 @@ ExitCode CompareCommand::Run(const CommandContext& context) {
   const InterruptGuard interrupt;
   const FitData data = LoadFitData(input_, scene_.material, context);
   UseMaterialFriction(*context.options, data.material, &scene_);
+  DecideFitEffects(data, input_.frames_per_second, fit_.relaxation, &scene_);
   const auto truth = LoadTruth(static_cast<int>(data.clouds.size()));
   Simulator simulator(
       MakeSetup(scene_, data.body, data.garment, data.material));

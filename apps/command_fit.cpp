@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "command.h"
+#include "effects.h"
 #include "fit_inputs.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
@@ -201,7 +202,7 @@ FitReport FitCommand::StartReport(const FitData& data) const {
   report.friction = scene_.contact.friction;
   report.thickness = scene_.contact.thickness;
   report.tolerance = scene_.step.friction.tolerance;
-  report.effects = scene_.effects;
+  report.effects = scene_.decisions;
   report.optimizer = optimize_ ? fit_.optimizer : "none";
   report.loss = fit_.data.loss.name + " " +
                 ShortNumber(1000 * fit_.data.loss.scale) + " mm";
@@ -263,6 +264,7 @@ ExitCode FitCommand::Run(const CommandContext& context) {
   if (resume_) resumed = OpenFolder(context);
   const FitData data = LoadFitData(input_, scene_.material, context);
   UseMaterialFriction(*context.options, data.material, &scene_);
+  DecideFitEffects(data, input_.frames_per_second, fit_.relaxation, &scene_);
   Simulator simulator(
       MakeSetup(scene_, data.body, data.garment, data.material));
   const RunFolder folder = resumed ? *resumed : OpenFolder(context);

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "command.h"
+#include "effects.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
 #include "invsim/base/logging.h"
@@ -94,7 +95,7 @@ SimulationReport SimulateCommand::StartReport(
   report.thickness = scene_.contact.thickness;
   report.friction = scene_.contact.friction;
   report.tolerance = scene_.step.friction.tolerance;
-  report.effects = scene_.effects;
+  report.effects = scene_.decisions;
   return report;
 }
 
@@ -138,6 +139,11 @@ ExitCode SimulateCommand::Run(const CommandContext& context) {
   const InterruptGuard interrupt;
   const SimulationScene scene = LoadSimulation(input_, scene_.material);
   UseMaterialFriction(*context.options, scene.material, &scene_);
+  DecideSceneEffects(
+      {scene.body, scene.garment, scene.frames, scene.motion.frame_rate},
+      scene.material,
+      relaxation_,
+      &scene_);
   Simulator simulator(
       MakeSetup(scene_, scene.body, scene.garment, scene.material));
   const RunFolder folder(context.out.empty() ? kDefaultOut : context.out,

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "command.h"
+#include "effects.h"
 #include "inputs.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
@@ -123,6 +124,11 @@ ExitCode SynthCommand::WriteSequence(const CommandContext& context) {
   const Motion motion = LoadMotion(options_.motion, body);
   const Material material = FindMaterial(physics_.material);
   UseMaterialFriction(*context.options, material, &physics_);
+  const std::vector<BodyParameters> frames = motion.Frames();
+  DecideSceneEffects({body, garment, frames, motion.frame_rate},
+                     material,
+                     sequence_.relaxation,
+                     &physics_);
   sequence_.seed = static_cast<std::uint64_t>(context.run.seed);
   sequence_.config = ResolvedToml(*context.options);
   sequence_.force = force_;

@@ -28,9 +28,7 @@ SimulationScene LoadSimulation(const SimulationInput& input,
   Motion motion = LoadMotion(input.motion, body);
   Garment garment = LoadGarment(input.garment, body, input.authored);
   CheckGarmentFits(garment, body, ShapeVector::Zero(), input.garment);
-  std::vector<BodyParameters> frames;
-  for (int t = 0; t < motion.num_frames(); ++t)
-    frames.push_back(motion.Frame(t));
+  std::vector<BodyParameters> frames = motion.Frames();
   return {std::move(body),
           std::move(garment),
           std::move(motion),

@@ -110,6 +110,8 @@ struct Convert<std::vector<std::string>> {
       const ConfigValue& value) {
     const auto* numbers = std::get_if<std::vector<double>>(&value);
     if (numbers && numbers->empty()) return std::vector<std::string>();
+    if (const auto* one = std::get_if<std::string>(&value))
+      return std::vector<std::string>{*one};
     const auto* list = std::get_if<std::vector<std::string>>(&value);
     return list ? std::optional(*list) : std::nullopt;
   }

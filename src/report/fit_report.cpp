@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "effects_json.h"
 #include "invsim/base/names.h"
 #include "invsim/base/progress.h"
 
@@ -44,7 +45,7 @@ Json InputsJson(const FitReport& r) {
   json["body"] = r.body;
   json["garment"] = r.garment;
   json["material"] = r.material;
-  json["effects"] = r.effects;
+  json["effects"] = EffectsOn(r.effects);
   json["frames"] = r.frames;
   json["frames_per_second"] = r.frames_per_second;
   json["points_per_frame_min"] = r.fewest_points;
@@ -177,7 +178,6 @@ void InputText(const FitReport& r, std::ostream* out) {
       .Add("material",
            r.material + ", friction " + ShortNumber(r.friction) + ", kept " +
                ShortNumber(1000 * r.thickness) + " mm from the body")
-      .Add("effects", Join(r.effects))
       .Add("loss", r.loss)
       .Add("threads", std::to_string(r.threads));
 }
@@ -377,6 +377,7 @@ std::string FitJson(const FitReport& report) {
   json["usable"] = r.simulated;
   json["verdict"] = Verdict(report);
   json["inputs"] = InputsJson(report);
+  json["effects"] = EffectsJson(report.effects);
   json["shape"] = List(r.body.shape);
   if (r.optimizer) json["optimization"] = OptimizerJson(*r.optimizer);
   json["cost_by_distance"] = {{"cloth_to_points", r.costs.cloth_to_points},
@@ -405,6 +406,7 @@ std::string FitText(const FitReport& report) {
   std::ostringstream out;
   out << Verdict(report) << "\n\n";
   InputText(report, &out);
+  out << "\nEffects\n" << DecisionsText(report.effects);
   StartText(r, &out);
   if (r.optimizer) OptimizerText(report, &out);
   SimulationText(report, &out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/report/fit_writer.h"
 
+#include "invsim/base/names.h"
 #include "invsim/body/motion.h"
 
 namespace invsim {
@@ -26,6 +27,7 @@ WebPage Page(const FitReport& report) {
                 {"material", report.material},
                 {"frames", std::to_string(report.frames)},
                 {"cloth", std::to_string(report.cloth_vertices) + " vertices"},
+                {"effects", Join(EffectsOn(report.effects))},
                 {"optimiser", report.optimizer},
                 {"ended", Name(r.termination)},
                 {"simulation steps", std::to_string(r.stats.step.substeps)},

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "effects_json.h"
 #include "invsim/base/names.h"
 #include "invsim/base/progress.h"
 
@@ -37,7 +38,7 @@ Json InputsJson(const SimulationReport& r) {
   json["motion"] = r.motion;
   json["garment"] = r.garment;
   json["material"] = r.material;
-  json["effects"] = r.effects;
+  json["effects"] = EffectsOn(r.effects);
   json["frames_per_second"] = r.frames_per_second;
   json["friction"] = r.friction;
   json["thickness_mm"] = 1000 * r.thickness;
@@ -180,6 +181,7 @@ std::string SimulationJson(const SimulationReport& report) {
   json["usable"] = Status(report) == RunStatus::kComplete;
   json["verdict"] = Verdict(report);
   json["inputs"] = InputsJson(report);
+  json["effects"] = EffectsJson(report.effects);
   json["counts"] = CountsJson(report);
   json["total"] = StatsJson(Total(report));
   json["wall_seconds"] = report.seconds;
@@ -209,7 +211,8 @@ std::string SimulationText(const SimulationReport& r) {
       << "  material              " << r.material << ", friction "
       << ShortNumber(r.friction) << ", kept " << ShortNumber(1000 * r.thickness)
       << " mm from the body\n"
-      << "  effects               " << Join(r.effects) << "\n\n"
+      << "\nEffects\n"
+      << DecisionsText(r.effects) << "\n"
       << "Relaxation: " << r.relaxation.frames << " frames, "
       << RestText(r.relaxation) << "\n";
   PartText(r.relaxation.stats, &out);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/report/simulation_writer.h"
 
+#include "invsim/base/names.h"
+
 namespace invsim {
 namespace {
 
@@ -15,6 +17,7 @@ WebPage Page(const SimulationReport& report) {
       {"garment", report.garment},
       {"material", report.material},
       {"cloth", std::to_string(report.cloth_vertices) + " vertices"},
+      {"effects", Join(EffectsOn(report.effects))},
       {"friction", ShortNumber(report.friction)},
       {"frames",
        std::to_string(report.sequence.frames) + " of " +

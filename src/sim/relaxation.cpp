@@ -114,9 +114,8 @@ bool Dressing::Settle() {
 bool Dressing::Move() {
   const int frames = Frames(options_.move_seconds);
   for (int k = 1; k <= frames; ++k) {
-    const double s = SmoothStep(static_cast<double>(k) / frames);
     const BodyParameters body =
-        k == frames ? goal_ : Interpolate(start_.body, goal_, s);
+        DressingBody(start_.body, goal_, static_cast<double>(k) / frames);
     if (!Step(RelaxationPhase::kMove, body, false)) return false;
   }
   return true;
@@ -200,6 +199,12 @@ const char* PhaseName(RelaxationPhase phase) {
       return "lead in";
   }
   return "";
+}
+
+BodyParameters DressingBody(const BodyParameters& start,
+                            const BodyParameters& goal,
+                            double s) {
+  return s >= 1 ? goal : Interpolate(start, goal, SmoothStep(s));
 }
 
 RelaxationResult Relax(const RelaxationScene& scene,

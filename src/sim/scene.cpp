@@ -22,10 +22,13 @@ SceneOptions::SceneOptions() {
 }
 
 void Describe(OptionTable* table, SceneOptions* o) {
+  std::vector<std::string> names = Effects().names();
+  names.push_back(kAutoEffects);
   table->Add("scene.effects",
              &o->effects,
-             {.doc = "what acts on the cloth; nothing else is computed",
-              .choices = Effects().names()});
+             {.doc = "what acts on the cloth; nothing else is computed. auto: "
+                     "what the scene calls for",
+              .choices = names});
   table->Add("scene.material",
              &o->material,
              {.doc = "a named material, or the path of an ARCSim material"});
@@ -42,6 +45,27 @@ void UseMaterialFriction(const OptionTable& table,
     options->contact.friction = material.friction;
 }
 
+std::vector<std::string> ChosenEffects(const SceneOptions& options,
+                                       const Garment& garment,
+                                       const Material& material) {
+  const std::vector<std::string>& list = options.effects;
+  for (size_t k = 0; k < list.size(); ++k) {
+    if (list[k] == kAutoEffects) {
+      if (list.size() > 1)
+        throw UsageError("scene.effects: 'auto' stands alone, not in a list");
+      return EffectsOn(
+          options.decisions.empty()
+              ? DecideEffects(options, garment, material, SceneMotion())
+              : options.decisions);
+    }
+    if (std::find(list.begin(), list.begin() + k, list[k]) != list.begin() + k)
+      throw UsageError("effect '" + list[k] + "' is listed twice");
+    if (!options.effect_options.contains(list[k]))
+      throw UsageError(UnknownName("effect", list[k], Effects().names()));
+  }
+  return list;
+}
+
 SimulatorSetup MakeSetup(const SceneOptions& options,
                          const BodyModel& body,
                          const Garment& garment,
@@ -49,16 +73,9 @@ SimulatorSetup MakeSetup(const SceneOptions& options,
   SimulatorSetup setup;
   setup.faces = garment.faces;
   setup.mass = VertexMasses(garment, material);
-  for (size_t k = 0; k < options.effects.size(); ++k) {
-    const std::string& name = options.effects[k];
-    const auto begin = options.effects.begin();
-    if (std::find(begin, begin + k, name) != begin + k)
-      throw UsageError("effect '" + name + "' is listed twice");
-    const auto found = options.effect_options.find(name);
-    if (found == options.effect_options.end())
-      throw UsageError(UnknownName("effect", name, Effects().names()));
-    setup.effects.push_back(found->second->Make(garment, material));
-  }
+  for (const std::string& name : ChosenEffects(options, garment, material))
+    setup.effects.push_back(
+        options.effect_options.at(name)->Make(garment, material));
   setup.contact = options.contact;
   setup.step = options.step;
   setup.body_faces = body.faces();

@@ -83,7 +83,7 @@ std::string SceneJson(const ClothedSequenceScene& s,
   json["garment_vertices"] = s.garment.num_vertices();
   json["material"] = s.material.name;
   json["areal_density_kg_m2"] = s.material.density;
-  json["effects"] = physics.effects;
+  json["effects"] = ChosenEffects(physics, s.garment, s.material);
   json["friction_body"] = physics.contact.friction;
   json["contact_gap_m"] = physics.contact.thickness;
   json["simulator"] = "invsim";
@@ -118,10 +118,8 @@ class Recording {
         options_(options),
         observer_(observer),
         simulator_(
-            MakeSetup(physics, scene.body, scene.garment, scene.material)) {
-    for (int t = 0; t < scene.motion.num_frames(); ++t)
-      frames_.push_back(scene.motion.Frame(t));
-  }
+            MakeSetup(physics, scene.body, scene.garment, scene.material)),
+        frames_(scene.motion.Frames()) {}
 
   ClothedSequenceResult Run(Truth* truth) {
     ClothedSequenceResult made;

@@ -52,6 +52,25 @@ class SimulateTest : public ::testing::Test {
   std::string directory_;
 };
 
+// In its first frames the cube has hardly begun to turn: no drag, and a reason
+// wherever one looks.
+TEST_F(SimulateTest, AutoSaysWhyAnEffectIsOnOrOff) {
+  const CommandResult result = RunCommand(
+      kSmall + std::string("--set scene.effects=auto --json --out ") +
+      Path("run"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["effects"]["gravity"]["on"], true);
+  EXPECT_EQ(json["effects"]["air_drag"]["on"], false);
+  for (const auto& [name, effect] : json["effects"].items()) {
+    EXPECT_NE(effect["reason"], "") << name;
+    for (const char* file : {"run/solver.txt", "run/report.html"})
+      EXPECT_THAT(ReadFileBytes(Path(file)), HasSubstr(name)) << file;
+  }
+  EXPECT_THAT(ReadFileBytes(Path("run/config.resolved.toml")),
+              HasSubstr("\"auto\""));
+}
+
 TEST_F(SimulateTest, WritesARunFolder) {
   const CommandResult result =
       RunCommand(kSmall + std::string("--json --out ") + Path("run"));
@@ -154,6 +173,11 @@ TEST_F(SimulateTest, RefusesWrongNamesAndOptions) {
       "simulate --body cube --garment sheet --set scene.effects=inertia,gravty",
       2,
       "gravity");
+  ExpectRefused(
+      "simulate --body cube --garment sheet "
+      "--set 'scene.effects=[\"gravity\",\"auto\"]'",
+      2,
+      "'auto' stands alone");
   ExpectRefused(
       "simulate --set relaxation.mvoe_seconds=1", 2, "relaxation.move_seconds");
   WriteFileBytes(Path("c.toml"), "[step]\n\nsubstep = 1\n");

@@ -162,11 +162,17 @@ TEST_F(OptionsTest, WrongTypesAreRefused) {
                            "times = [inf]",
                            "times = ['a']",
                            "effects = ['wind']",
-                           "effects = 'membrane'",
+                           "effects = 'wind'",
+                           "effects = true",
                            "inner.solver = 0"}) {
     EXPECT_THAT(ErrorOf("scene." + std::string(line)), HasSubstr(": expected "))
         << line;
   }
+}
+
+TEST_F(OptionsTest, AListOfTextsMayBeGivenAsOne) {
+  table_.Read(Config::FromText("scene.effects = 'membrane'", "a.toml"));
+  EXPECT_EQ(options_.effects, std::vector<std::string>{"membrane"});
 }
 
 TEST_F(OptionsTest, CommandLineTextNeedsNoQuotes) {

@@ -16,7 +16,9 @@ SimulationReport Example() {
   r.body = "b.npz";
   r.garment = "g\xff.obj";  // no UTF-8
   r.material = "jersey";
-  r.effects = {"inertia", "gravity"};
+  r.effects = {{"inertia", true, "listed"},
+               {"air_drag", false, "0.3 % of the cloth's weight"},
+               {"friction", true, "coefficient 0.3", true}};
   r.frames_wanted = 3;
   r.frames_per_second = 30;
   r.tolerance = 1e-6;
@@ -67,6 +69,9 @@ TEST(SimulationReport, JsonIsVersionedAndHoldsEveryFrame) {
   EXPECT_EQ(json["status"], "complete");
   EXPECT_EQ(json["usable"], true);
   EXPECT_EQ(json["inputs"]["thickness_mm"], 2.0);
+  EXPECT_EQ(json["inputs"]["effects"], nlohmann::json::array({"inertia"}));
+  EXPECT_EQ(json["effects"]["air_drag"]["on"], false);
+  EXPECT_EQ(json["effects"]["friction"]["reason"], "coefficient 0.3");
   EXPECT_EQ(json["counts"]["frames_done"], 3);
   EXPECT_EQ(json["total"]["steps"], 170);
   EXPECT_EQ(json["total"]["steps_missed"], 2);
@@ -84,7 +89,8 @@ TEST(SimulationReport, TextSaysWhatHappenedInBothParts) {
               AllOf(HasSubstr("Relaxation: 40 frames, at rest"),
                     HasSubstr("mean speed 0.8 cm/s"),
                     HasSubstr("Sequence: 3 of 3 frames, complete"),
-                    HasSubstr("inertia, gravity")));
+                    HasSubstr("inertia             on   listed"),
+                    HasSubstr("air_drag            off  0.3 % of the")));
 }
 
 TEST(SimulationReport, ChartsHaveOneValuePerFrame) {

@@ -76,9 +76,10 @@ class OptionTable {
   OptionTable& operator=(const OptionTable&) = delete;
 
   // Registers a member: bool, int, std::int64_t, double, std::string,
-  // Vector3d, or a std::vector of int, double or std::string. It must outlive
-  // the table. A key registered twice is a programming error (throws
-  // std::logic_error), and so is a default that its own bounds refuse.
+  // Vector3d, or a std::vector of int, double or std::string (of which one may
+  // be given without brackets). It must outlive the table. A key registered
+  // twice is a programming error (throws std::logic_error), and so is a default
+  // that its own bounds refuse.
   template <typename T>
   requires(!std::is_enum_v<T>) void Add(const std::string& key,
                                         T* member,

@@ -25,6 +25,11 @@ struct Motion {
   BodyParameters Frame(int t) const {
     return {shape, poses[t], translations[t]};
   }
+  std::vector<BodyParameters> Frames() const {
+    std::vector<BodyParameters> frames;
+    for (int t = 0; t < num_frames(); ++t) frames.push_back(Frame(t));
+    return frames;
+  }
 };
 
 // Reads an AMASS npz:

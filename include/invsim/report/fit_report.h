@@ -11,6 +11,7 @@
 
 #include "invsim/fit/sequence_fit.h"
 #include "invsim/report/chart.h"
+#include "invsim/sim/effect_choice.h"
 
 namespace invsim {
 
@@ -29,7 +30,7 @@ struct FitReport {
   double friction = 0;   // Coulomb's mu
   double thickness = 0;  // m
   double tolerance = 0;  // of the contact solve, weights of a vertex
-  std::vector<std::string> effects;
+  std::vector<EffectDecision> effects;
   std::string optimizer;
   std::string loss;  // with its scale
   History history = History::kOneFrame;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "invsim/report/chart.h"
+#include "invsim/sim/effect_choice.h"
 #include "invsim/sim/relaxation.h"
 #include "invsim/sim/rollout.h"
 
@@ -28,7 +29,7 @@ struct SimulationReport {
   double thickness = 0;   // m, kept between cloth and body
   double friction = 0;    // Coulomb's mu
   double tolerance = 0;   // of the contact solve, weights of a vertex
-  std::vector<std::string> effects;
+  std::vector<EffectDecision> effects;
 
   RelaxationResult relaxation;
   RolloutResult sequence;

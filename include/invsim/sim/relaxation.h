@@ -84,6 +84,12 @@ struct RelaxationScene {
   ShapeVector garment_shape = ShapeVector::Zero();
 };
 
+// The body on its way from the T-pose to where it holds, 0 <= s <= 1, with no
+// velocity and no acceleration at either end.
+BodyParameters DressingBody(const BodyParameters& start,
+                            const BodyParameters& goal,
+                            double s);
+
 // Ends early if it fails or InterruptRequested().
 RelaxationResult Relax(const RelaxationScene& scene,
                        const RelaxationOptions& options,

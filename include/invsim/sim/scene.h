@@ -11,6 +11,7 @@
 //   table.Read(config);
 //   Material material = ...;
 //   UseMaterialFriction(table, material, &scene);
+//   scene.decisions = DecideEffects(scene, garment, material, motion);
 //   Simulator simulator(MakeSetup(scene, body, garment, material));
 
 #include <map>
@@ -23,6 +24,7 @@
 #include "invsim/cloth/effect_registry.h"
 #include "invsim/cloth/garment.h"
 #include "invsim/cloth/material.h"
+#include "invsim/sim/effect_choice.h"
 #include "invsim/sim/simulator.h"
 
 namespace invsim {
@@ -30,9 +32,12 @@ namespace invsim {
 struct SceneOptions {
   SceneOptions();
 
-  // Names from the registry of effects. Only these are built.
+  // Names from the registry of effects, or "auto" alone. Only these are built.
   std::vector<std::string> effects = {
       "inertia", "gravity", "membrane", "bending"};
+  // What DecideEffects made of that. As long as it is empty, "auto" is decided
+  // for a motion of which nothing is known.
+  std::vector<EffectDecision> decisions;
   // A named material or the path of an ARCSim material (.json).
   std::string material = "jersey";
   BodyContactOptions contact;
@@ -52,7 +57,13 @@ void UseMaterialFriction(const OptionTable& table,
                          const Material& material,
                          SceneOptions* options);
 
-// Throws UsageError for an effect that is unknown or listed twice.
+// The names of the effects that are built. Throws UsageError for one that is
+// unknown or listed twice, or for "auto" with others beside it.
+std::vector<std::string> ChosenEffects(const SceneOptions& options,
+                                       const Garment& garment,
+                                       const Material& material);
+
+// Throws as ChosenEffects does.
 SimulatorSetup MakeSetup(const SceneOptions& options,
                          const BodyModel& body,
                          const Garment& garment,

@@ -85,16 +85,21 @@ Vector3d FischerBurmeister(const Vector3d& n,
   return phi_n * n + phi_t;
 }
 
+Vector3d CompliantForce(
+    const Vector3d& n, double mu, double d_n, double d_t, const Vector3d& q) {
+  const double normal = -n.dot(q) / d_n;
+  if (normal <= 0) return Vector3d::Zero();
+  const Vector3d tangent = -(q - n.dot(q) * n) / d_t;
+  const double length = tangent.norm();
+  if (length <= mu * normal) return normal * n + tangent;
+  return normal * (n + mu / length * tangent);
+}
+
 Vector3d CompliantForce(const Vector3d& n,
                         double mu,
                         double d,
                         const Vector3d& q) {
-  const double normal = -n.dot(q) / d;
-  if (normal <= 0) return Vector3d::Zero();
-  const Vector3d tangent = -(q - n.dot(q) * n) / d;
-  const double length = tangent.norm();
-  if (length <= mu * normal) return normal * n + tangent;
-  return normal * (n + mu / length * tangent);
+  return CompliantForce(n, mu, d, d, q);
 }
 
 CompliantDerivative DifferentiateCompliantForce(const Vector3d& n,

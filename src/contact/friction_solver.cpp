@@ -18,13 +18,37 @@ namespace {
 
 // Newton has stagnated if its residual did not halve in so many iterations.
 constexpr int kPatience = 3;
-// rho in units of a vertex's own diagonal of A. Splitting without acceleration
-// is fastest near 1, accelerated near 0.25 (docs/performance.md).
-constexpr double kRho = 0.25;
+// rho, along the normal and across it, in units of a vertex's own diagonal of A
+// there. The membrane ties neighbours together across the normal, so that a
+// vertex is far softer there than its own diagonal says.
+constexpr double kRhoNormal = 0.5;
+constexpr double kRhoTangent = 0.05;
 // Refinement goes on while a step leaves less than this of the residual.
 constexpr double kRefinement = 0.1;
 // Differences that the acceleration of splitting remembers.
 constexpr int kMemory = 15;
+
+// The matrix normal n n^T + tangent (1 - n n^T).
+struct Scaling {
+  Vector3d n;
+  double normal, tangent;
+
+  Scaling Power(double p) const {
+    return {n, std::pow(normal, p), std::pow(tangent, p)};
+  }
+  Vector3d operator*(const Vector3d& x) const {
+    return tangent * x + (normal - tangent) * n.dot(x) * n;
+  }
+  Matrix3d matrix() const {
+    return tangent * Matrix3d::Identity() +
+           (normal - tangent) * n * n.transpose();
+  }
+};
+
+// Of splitting, at one contact: rho, its inverse, its root and that's inverse.
+struct SplittingScale {
+  Scaling rho, inverse, root, inverse_root;
+};
 
 }  // namespace
 
@@ -65,8 +89,9 @@ struct FrictionSolver::Impl {
   VectorXd v;
   std::vector<Vector3d> forces;
   // Per contact: the vertex's own diagonal of A (with compliance), in which
-  // velocities are turned into forces, and splitting's part of it.
-  std::vector<double> delassus_inverse, rho;
+  // velocities are turned into forces, and splitting's rho.
+  std::vector<double> delassus_inverse;
+  std::vector<SplittingScale> scale;
   std::vector<int> exact_on;  // per vertex: its exact contact, or -1
 
   // At the current v: A v and g = A v - b - compliant forces.
@@ -92,17 +117,23 @@ void FrictionSolver::Impl::UsePattern() {
 void FrictionSolver::Impl::Prepare() {
   const auto& contacts = *problem.contacts;
   delassus_inverse.resize(contacts.size());
-  rho.resize(contacts.size());
+  scale.resize(contacts.size());
   exact_on.assign(problem.a->size(), -1);
   if (pattern.Cover(contacts)) UsePattern();
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
-    double delassus = 0;
-    for (int j = 0; j < c.num_vertices; ++j)
-      delassus += c.weight[j] * c.weight[j] * 3 /
-                  problem.a->diagonal(c.vertex[j]).trace();
-    delassus_inverse[k] = 1 / (delassus + c.compliance);
-    rho[k] = kRho * delassus_inverse[k];
+    double mean = c.compliance, normal = c.compliance, tangent = c.compliance;
+    for (int j = 0; j < c.num_vertices; ++j) {
+      const Matrix3d own = problem.a->diagonal(c.vertex[j]);
+      const double along = c.normal.dot(own * c.normal);
+      const double square = c.weight[j] * c.weight[j];
+      mean += square * 3 / own.trace();
+      normal += square / along;
+      tangent += square * 2 / (own.trace() - along);
+    }
+    delassus_inverse[k] = 1 / mean;
+    const Scaling rho{c.normal, kRhoNormal / normal, kRhoTangent / tangent};
+    scale[k] = {rho, rho.Power(-1), rho.Power(0.5), rho.Power(-0.5)};
     if (c.exact()) exact_on[c.vertex[0]] = static_cast<int>(k);
   }
   exact.resize(contacts.size());
@@ -112,12 +143,12 @@ void FrictionSolver::Impl::Prepare() {
 bool FrictionSolver::Impl::Factor() {
   augmented.Assign(*problem.a);
   const BlockPattern& p = *pattern.pattern();
-  for (size_t k = 0; k < rho.size(); ++k) {
+  for (size_t k = 0; k < scale.size(); ++k) {
     const Contact& c = (*problem.contacts)[k];
     for (int i = 0; i < c.num_vertices; ++i)
       for (int j = 0; j < c.num_vertices; ++j)
-        augmented.block(p.Find(c.vertex[i], c.vertex[j])).diagonal().array() +=
-            rho[k] * c.weight[i] * c.weight[j];
+        augmented.block(p.Find(c.vertex[i], c.vertex[j])) +=
+            scale[k].rho.matrix() * (c.weight[i] * c.weight[j]);
   }
   const Stopwatch watch;
   bool ok = single.Factor(augmented);
@@ -148,8 +179,8 @@ void FrictionSolver::Impl::StartSplitting() {
   image.resize(q.size());
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
-    q.segment<3>(3 * k) =
-        std::sqrt(rho[k]) * (c.Gather(v) - c.velocity - forces[k] / rho[k]);
+    q.segment<3>(3 * k) = scale[k].root * (c.Gather(v) - c.velocity -
+                                           scale[k].inverse * forces[k]);
   }
   anderson.Reset();
 }
@@ -167,21 +198,24 @@ void FrictionSolver::Impl::SplittingStep() {
   correction = *problem.b - av;
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
-    const double root = std::sqrt(rho[k]);
-    const Vector3d at = q.segment<3>(3 * k) / root;
+    const Vector3d at = scale[k].inverse_root * q.segment<3>(3 * k);
     const Vector3d r =
         c.kind == ContactKind::kPin
-            ? Vector3d(-rho[k] * at)
-            : CompliantForce(
-                  c.normal, c.friction, 1 / rho[k] + c.compliance, at);
-    const Vector3d z = at + r / rho[k];
-    c.Scatter(rho[k] * (z + c.velocity - c.Gather(v)) + r, &correction);
-    image.segment<3>(3 * k) = q.segment<3>(3 * k) - root * (z + c.velocity);
+            ? Vector3d(-(scale[k].rho * at))
+            : CompliantForce(c.normal,
+                             c.friction,
+                             scale[k].inverse.normal + c.compliance,
+                             scale[k].inverse.tangent + c.compliance,
+                             at);
+    const Vector3d z = at + scale[k].inverse * r;
+    c.Scatter(scale[k].rho * (z + c.velocity - c.Gather(v)) + r, &correction);
+    image.segment<3>(3 * k) =
+        q.segment<3>(3 * k) - scale[k].root * (z + c.velocity);
   }
   Precondition(&correction);
   v += correction;
   for (size_t k = 0; k < contacts.size(); ++k)
-    image.segment<3>(3 * k) += std::sqrt(rho[k]) * contacts[k].Gather(v);
+    image.segment<3>(3 * k) += scale[k].root * contacts[k].Gather(v);
   ++stats.admm_iterations;
 }
 
@@ -266,15 +300,15 @@ void FrictionSolver::Impl::Linearize() {
           DifferentiateCompliantForce(c.normal, c.friction, c.compliance, u);
       continue;
     }
-    const double scale = delassus_inverse[k];
+    const double own = delassus_inverse[k];
     exact[k] =
         c.kind == ContactKind::kPin
             ? ContactLinearization{ContactMode::kStick,
                                    Matrix3d::Zero(),
-                                   scale * Matrix3d::Identity(),
-                                   scale * u,
+                                   own * Matrix3d::Identity(),
+                                   own * u,
                                    Matrix3d::Zero()}
-            : LinearizeAlartCurnier(c.normal, c.friction, scale, forces[k], u);
+            : LinearizeAlartCurnier(c.normal, c.friction, own, forces[k], u);
     residual.segment<3>(3 * c.vertex[0]) = exact[k].residual;
   }
 }

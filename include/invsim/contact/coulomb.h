@@ -58,6 +58,10 @@ Vector3d CompliantForce(const Vector3d& n,
                         double d,
                         const Vector3d& q);
 
+// The same where u = q + d_n r along n and q + d_t r across it.
+Vector3d CompliantForce(
+    const Vector3d& n, double mu, double d_n, double d_t, const Vector3d& q);
+
 // Its derivatives with respect to q and to n.
 struct CompliantDerivative {
   ContactMode mode;

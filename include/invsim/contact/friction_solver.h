@@ -11,7 +11,8 @@
 // no contact unknown enters the matrix.
 //
 // Method. P = A + sum rho_i G_i^T G_i is factorised once, in single precision,
-// rho_i a part of the vertex's own diagonal of A. Douglas-Rachford splitting
+// rho_i a part of the vertex's own diagonal of A along the normal and across
+// it. Douglas-Rachford splitting
 // (ADMM) with P and closed-form local Coulomb projections, under Anderson
 // acceleration, converges to the solution: one factorisation and some tens of
 // single solves. If it does not within its share of iterations, semismooth

@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "embree_device.h"
 #include "invsim/base/error.h"
 #include "invsim/geometry/mesh.h"
 #include "invsim/geometry/topology.h"
@@ -23,13 +24,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // How much the single-precision boxes and search spheres may be off, relative
 // to the numbers in them: some roundings of 6e-8 each.
 constexpr double kFloatSlack = 1e-6;
-
-// One device serves the process. No thread count is given: Embree would cap
-// TBB for the whole process.
-RTCDevice Device() {
-  static const RTCDevice device = rtcNewDevice(nullptr);
-  return device;
-}
 
 // A ray that reports every face it crosses.
 struct CrossingContext : RTCIntersectContext {
@@ -55,8 +49,8 @@ struct SurfaceIndex::Impl {
         faces(f),
         neighbours(FaceNeighbours(f)),
         around(f, static_cast<int>(vertices.cols())),
-        scene(rtcNewScene(Device())),
-        geometry(rtcNewGeometry(Device(), RTC_GEOMETRY_TYPE_TRIANGLE)) {
+        scene(rtcNewScene(EmbreeDevice())),
+        geometry(rtcNewGeometry(EmbreeDevice(), RTC_GEOMETRY_TYPE_TRIANGLE)) {
     rtcSetSceneFlags(scene,
                      static_cast<RTCSceneFlags>(
                          RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |

@@ -10,6 +10,7 @@
 #include "invsim/cloth/effects/inertia.h"
 #include "invsim/cloth/effects/mass_damping.h"
 #include "invsim/cloth/effects/membrane.h"
+#include "invsim/cloth/effects/self_contact.h"
 #include "invsim/cloth/effects/stiffness_damping.h"
 #include "invsim/cloth/mass.h"
 
@@ -69,6 +70,12 @@ std::unique_ptr<Effect> MakeAirDrag(const AirDragOptions& options,
   return std::make_unique<AirDrag>(garment.faces, options);
 }
 
+std::unique_ptr<Effect> MakeSelfContact(const SelfContactOptions& options,
+                                        const Garment& garment,
+                                        const Material&) {
+  return std::make_unique<SelfContact>(garment, options);
+}
+
 EffectRegistry MakeRegistry() {
   EffectRegistry r("effect");
   r.Add<NoOptions>(
@@ -86,6 +93,9 @@ EffectRegistry MakeRegistry() {
                             "damping of all motion, in proportion to mass",
                             MakeMassDamping);
   r.Add<AirDragOptions>("air_drag", "drag of the air, and wind", MakeAirDrag);
+  r.Add<SelfContactOptions>("self_contact",
+                            "contact of the cloth with itself, with friction",
+                            MakeSelfContact);
   return r;
 }
 

@@ -47,6 +47,10 @@ bool SegmentMeetsTriangle(const Vector3d& p,
          (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
 }
 
+bool FacesCross(const Points& vertices, const Faces& faces, int f, int g) {
+  return SideMeets(vertices, faces, f, g) || SideMeets(vertices, faces, g, f);
+}
+
 std::vector<std::array<int, 2>> SelfIntersections(const Points& vertices,
                                                   const Faces& faces) {
   const SurfaceIndex index(vertices, faces);
@@ -61,8 +65,7 @@ std::vector<std::array<int, 2>> SelfIntersections(const Points& vertices,
     std::vector<FacePoint> near;
     index.Within(centre, radius, &near);
     for (const FacePoint& p : near)
-      if (p.face > f && (SideMeets(vertices, faces, f, p.face) ||
-                         SideMeets(vertices, faces, p.face, f)))
+      if (p.face > f && FacesCross(vertices, faces, f, p.face))
         partners[f].push_back(p.face);
   });
   std::vector<std::array<int, 2>> pairs;

@@ -28,7 +28,15 @@ bool SameContacts(const FrameRecord& a, const FrameRecord& b) {
     for (size_t k = 0; k < x.sources.size(); ++k) {
       const BodyContact &p = x.sources[k], &q = y.sources[k];
       if (p.vertex != q.vertex || p.face != q.face || p.feature != q.feature ||
-          Mode(x, k) != Mode(y, k))
+          Mode(x, p.contact) != Mode(y, q.contact))
+        return false;
+    }
+    if (x.cloth_sources.size() != y.cloth_sources.size() || x.kept != y.kept)
+      return false;
+    for (size_t k = 0; k < x.cloth_sources.size(); ++k) {
+      const ClothContact &p = x.cloth_sources[k], &q = y.cloth_sources[k];
+      if (p.vertex != q.vertex || p.feature != q.feature || p.side != q.side ||
+          p.swept != q.swept || Mode(x, p.contact) != Mode(y, q.contact))
         return false;
     }
   }

@@ -2,7 +2,9 @@
 #include "invsim/sim/simulator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "invsim/base/options.h"
@@ -10,6 +12,10 @@
 
 namespace invsim {
 namespace {
+
+// How often a step is solved again with contacts for cloth that touched cloth
+// on its way, before it is stopped.
+constexpr int kSweeps = 4;
 
 // The unit of force residuals where there is no gravity to weigh with.
 constexpr double kStandardGravity = 9.81;
@@ -93,6 +99,10 @@ void StepStats::Add(const StepStats& o) {
   open += o.open;
   stick += o.stick;
   slide += o.slide;
+  most_cloth_contacts = std::max(most_cloth_contacts, o.most_cloth_contacts);
+  sweep_solves += o.sweep_solves;
+  stopped += o.stopped;
+  most_crossings = std::max(most_crossings, o.most_crossings);
   assembly_seconds += o.assembly_seconds;
   detection_seconds += o.detection_seconds;
   factor_seconds += o.factor_seconds;
@@ -109,7 +119,11 @@ struct Simulator::Impl {
 
   void DetectContacts(const Points& b0, const Points& b1, SubstepRecord* sub);
   void Linearize(const SubstepRecord& sub, LinearizationRecord* lin);
+  void DetectClothContacts(SubstepRecord* sub, StepStats* stats);
+  std::vector<Vector3d> StartForces(const SubstepRecord& sub) const;
   Outcome Solve(SubstepRecord* sub, LinearizationRecord* lin, StepStats* stats);
+  Outcome Iterate(SubstepRecord* sub, StepStats* stats);
+  bool SweepCloth(int round, SubstepRecord* sub, StepStats* stats);
   Outcome Substep(const Points& body0,
                   const Points& body1,
                   SubstepRecord* sub,
@@ -130,8 +144,11 @@ struct Simulator::Impl {
   std::shared_ptr<const BlockPattern> pattern;
   std::unique_ptr<FrictionSolver> solver;
   std::unique_ptr<BodyContactDetector> detector;
+  std::unique_ptr<ClothContactDetector> cloth_detector;
   VectorXd weight;
-  Points contact_force;
+  Points contact_force, exact_force;  // of all contacts; of exact ones
+  // The last forces of cloth on cloth, by the contact's vertices.
+  std::map<std::array<int, 4>, Vector3d> cloth_force;
   Points last_x;       // where the last frame ended
   SubstepRecord last;  // the last sub-step advanced, without matrices
   int num_body_vertices = 0;
@@ -144,6 +161,9 @@ Simulator::Impl::Impl(SimulatorSetup s) : setup(std::move(s)) {
     effect->AddStencils(&builder);
     inertia = inertia || effect->name() == "inertia";
     velocity_dependent = velocity_dependent || effect->depends_on_velocity();
+    if (const auto* self = dynamic_cast<const SelfContact*>(effect.get()))
+      cloth_detector = std::make_unique<ClothContactDetector>(
+          *self, setup.faces, setup.mass);
   }
   pattern = builder.Build();
   for (const auto& effect : setup.effects) effect->Bind(*pattern);
@@ -153,6 +173,7 @@ Simulator::Impl::Impl(SimulatorSetup s) : setup(std::move(s)) {
         std::make_unique<BodyContactDetector>(setup.body, setup.body_faces);
   weight = kStandardGravity * setup.mass;
   contact_force.setZero(3, n);
+  exact_force.setZero(3, n);
 }
 
 void Simulator::Impl::DetectContacts(const Points& b0,
@@ -222,22 +243,33 @@ void Simulator::Impl::Linearize(const SubstepRecord& sub,
   }
 }
 
+void Simulator::Impl::DetectClothContacts(SubstepRecord* sub,
+                                          StepStats* stats) {
+  cloth_detector->Detect(
+      sub->dt, sub->start.x, sub->start.v, &sub->contacts, &sub->cloth_sources);
+  stats->most_crossings =
+      std::max(stats->most_crossings, cloth_detector->crossings());
+}
+
+// Last known forces start the splitting.
+std::vector<Vector3d> Simulator::Impl::StartForces(
+    const SubstepRecord& sub) const {
+  std::vector<Vector3d> forces(sub.contacts.size(), Vector3d::Zero());
+  for (size_t k = 0; k < sub.contacts.size(); ++k)
+    if (sub.contacts[k].exact())
+      forces[k] = exact_force.col(sub.contacts[k].vertex[0]);
+  for (const ClothContact& source : sub.cloth_sources) {
+    const auto known = cloth_force.find(source.vertex);
+    if (known != cloth_force.end()) forces[source.contact] = known->second;
+  }
+  return forces;
+}
+
+// `lin` holds the velocity and the forces to start from.
 Simulator::Impl::Outcome Simulator::Impl::Solve(SubstepRecord* sub,
                                                 LinearizationRecord* lin,
                                                 StepStats* stats) {
   const FrictionProblem problem{&lin->a, &lin->b, &sub->contacts, &weight};
-  lin->v = Stacked(lin->y.v);
-  lin->forces.resize(sub->contacts.size());
-  // Last known forces start the splitting.
-  if (!sub->linearizations.empty()) {
-    lin->forces = sub->linearizations.back().forces;
-  } else {
-    for (size_t k = 0; k < sub->contacts.size(); ++k)
-      lin->forces[k] =
-          sub->contacts[k].exact()
-              ? Vector3d(contact_force.col(sub->contacts[k].vertex[0]))
-              : Vector3d(Vector3d::Zero());
-  }
   const FrictionStats f =
       solver->Solve(problem, setup.step.friction, &lin->v, &lin->forces);
   ++stats->linearizations;
@@ -254,6 +286,70 @@ Simulator::Impl::Outcome Simulator::Impl::Solve(SubstepRecord* sub,
   return {!f.factorization_failed && lin->v.allFinite(), f.converged};
 }
 
+// Linearises and solves. If that was done before with fewer contacts, it
+// starts from the result, and the matrix about the start serves again.
+Simulator::Impl::Outcome Simulator::Impl::Iterate(SubstepRecord* sub,
+                                                  StepStats* stats) {
+  Outcome outcome;
+  const std::vector<LinearizationRecord> before =
+      std::exchange(sub->linearizations, {});
+  ClothState y = sub->start;
+  for (int k = 0; k < setup.step.newton_iterations; ++k) {
+    LinearizationRecord lin;
+    if (k == 0 && !before.empty()) {
+      lin = before.front();
+    } else {
+      lin.y = y;
+      const Stopwatch assembly;
+      Linearize(*sub, &lin);
+      stats->assembly_seconds += assembly.seconds();
+    }
+    if (k > 0) {
+      lin.v = Stacked(lin.y.v);
+      lin.forces = sub->linearizations.back().forces;
+    } else if (!before.empty()) {
+      lin.v = before.back().v;
+      lin.forces = before.back().forces;
+      lin.forces.resize(sub->contacts.size(), Vector3d::Zero());
+    } else {
+      lin.v = Stacked(lin.y.v);
+      lin.forces = StartForces(*sub);
+    }
+    const Outcome o = Solve(sub, &lin, stats);
+    if (!o.finite) return {false, false};
+    outcome.converged = o.converged;
+    const double change = (lin.v - Stacked(y.v)).lpNorm<Eigen::Infinity>();
+    Stacked(y.v) = lin.v;
+    y.x = sub->start.x + sub->dt * y.v;
+    sub->linearizations.push_back(std::move(lin));
+    if (k > 0 && change < setup.step.newton_tolerance) break;
+  }
+  return outcome;
+}
+
+// True if cloth touches cloth on its way; there are then contacts against it.
+// After the last round it is stopped instead.
+bool Simulator::Impl::SweepCloth(int round,
+                                 SubstepRecord* sub,
+                                 StepStats* stats) {
+  const Stopwatch watch;
+  const VectorXd& v = sub->linearizations.back().v;
+  const Points x1 = sub->start.x + sub->dt * Eigen::Map<const Points>(
+                                                 v.data(), 3, v.size() / 3);
+  bool again = false;
+  if (round < kSweeps) {
+    again = cloth_detector->Sweep(x1, &sub->contacts, &sub->cloth_sources) > 0;
+    stats->sweep_solves += again;
+  } else {
+    sub->kept = cloth_detector->Stop(x1);
+    const auto stopped = (sub->kept.array() < 1).count();
+    stats->stopped += static_cast<int>(stopped);
+    if (stopped == 0) sub->kept.resize(0);
+  }
+  stats->detection_seconds += watch.seconds();
+  return again;
+}
+
 Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
                                                   const Points& body1,
                                                   SubstepRecord* sub,
@@ -265,26 +361,17 @@ Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
   } else {
     DetectContacts(body0, body1, sub);
   }
+  if (cloth_detector) DetectClothContacts(sub, stats);
   stats->detection_seconds += detection.seconds();
+  Outcome outcome = Iterate(sub, stats);
+  if (cloth_detector)
+    for (int round = 0; outcome.finite && SweepCloth(round, sub, stats);
+         ++round)
+      outcome = Iterate(sub, stats);
   stats->most_contacts =
       std::max(stats->most_contacts, static_cast<int>(sub->contacts.size()));
-  Outcome outcome;
-  ClothState y = sub->start;
-  for (int k = 0; k < setup.step.newton_iterations; ++k) {
-    LinearizationRecord lin;
-    lin.y = y;
-    const Stopwatch assembly;
-    Linearize(*sub, &lin);
-    stats->assembly_seconds += assembly.seconds();
-    const Outcome o = Solve(sub, &lin, stats);
-    if (!o.finite) return {false, false};
-    outcome.converged = o.converged;
-    const double change = (lin.v - Stacked(y.v)).lpNorm<Eigen::Infinity>();
-    Stacked(y.v) = lin.v;
-    y.x = sub->start.x + sub->dt * y.v;
-    sub->linearizations.push_back(std::move(lin));
-    if (k > 0 && change < setup.step.newton_tolerance) break;
-  }
+  stats->most_cloth_contacts = std::max(
+      stats->most_cloth_contacts, static_cast<int>(sub->cloth_sources.size()));
   return outcome;
 }
 
@@ -338,14 +425,21 @@ bool Simulator::Impl::Interval(const Points& body0,
   if (!outcome.converged) ++stats->missed;
   const LinearizationRecord& lin = sub.linearizations.back();
   Stacked(state->v) = lin.v;
+  if (sub.kept.size() > 0)
+    state->v.array().rowwise() *= sub.kept.transpose().array();
   state->x = sub.start.x + sub.dt * state->v;
   contact_force.setZero();
+  exact_force.setZero();
   Eigen::Map<VectorXd> force = Stacked(contact_force);
   for (size_t k = 0; k < sub.contacts.size(); ++k) {
     const Contact& c = sub.contacts[k];
     for (int j = 0; j < c.num_vertices; ++j)
       force.segment<3>(3 * c.vertex[j]) += c.weight[j] * lin.forces[k];
+    if (c.exact()) exact_force.col(c.vertex[0]) = lin.forces[k];
   }
+  cloth_force.clear();
+  for (const ClothContact& source : sub.cloth_sources)
+    cloth_force[source.vertex] = lin.forces[source.contact];
   last.contacts = sub.contacts;
   last.sources = sub.sources;
   last.linearizations.resize(1);
@@ -366,6 +460,9 @@ const std::vector<std::unique_ptr<Effect>>& Simulator::effects() const {
 const StepOptions& Simulator::step_options() const { return impl_->setup.step; }
 const BodyContactOptions& Simulator::contact_options() const {
   return impl_->setup.contact;
+}
+const SelfContactOptions* Simulator::self_contact_options() const {
+  return impl_->cloth_detector ? &impl_->cloth_detector->options() : nullptr;
 }
 std::shared_ptr<const BlockPattern> Simulator::pattern() const {
   return impl_->pattern;
@@ -391,8 +488,11 @@ bool Simulator::Advance(const Points& body0,
   s.num_body_vertices = static_cast<int>(body1.cols());
   // Forces of the last step start the next one, unless the cloth was moved
   // from outside: results depend on what is given and nothing else.
-  if (s.last_x.cols() != state->x.cols() || s.last_x != state->x)
-    s.contact_force.setZero();
+  if (s.last_x.cols() != state->x.cols() || s.last_x != state->x) {
+    s.exact_force.setZero();
+    s.cloth_force.clear();
+    s.solver->Forget();
+  }
   ClothState moved = *state;
   const int substeps = s.setup.step.substeps;
   for (int k = 0; k < substeps; ++k) {

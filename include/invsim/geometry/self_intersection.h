@@ -19,9 +19,12 @@ bool SegmentMeetsTriangle(const Vector3d& p,
                           const Vector3d& b,
                           const Vector3d& c);
 
-// The pairs of faces (first < second) that cross each other, sorted: a side of
-// one meets the other. Faces that share a vertex are passed over unless the
-// side opposite it does so. Throws InputError as SurfaceIndex does.
+// Whether a side of face f meets face g or one of g meets f; of faces that
+// share a vertex, a side without it.
+bool FacesCross(const Points& vertices, const Faces& faces, int f, int g);
+
+// The pairs of faces (first < second) that cross each other, sorted. Throws
+// InputError as SurfaceIndex does.
 std::vector<std::array<int, 2>> SelfIntersections(const Points& vertices,
                                                   const Faces& faces);
 

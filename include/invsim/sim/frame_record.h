@@ -10,6 +10,7 @@
 #include "invsim/algebra/block_matrix.h"
 #include "invsim/cloth/effect.h"
 #include "invsim/contact/body_contact.h"
+#include "invsim/contact/cloth_contact.h"
 #include "invsim/contact/contact.h"
 #include "invsim/contact/friction_solver.h"
 
@@ -33,9 +34,14 @@ struct SubstepRecord {
   // (1 - s) body0 + s body1 of the frame.
   double s0 = 0, s1 = 1;
   ClothState start;
-  std::vector<Contact> contacts;  // body contacts first, then pins
+  // Body contacts first, then pins, then contacts of the cloth with itself.
+  std::vector<Contact> contacts;
   std::vector<BodyContact> sources;
+  std::vector<ClothContact> cloth_sources;
   std::vector<LinearizationRecord> linearizations;
+  // The share of the solution's velocity that each vertex kept because cloth
+  // was in its way; empty if all kept all.
+  VectorXd kept;
 };
 
 struct FrameRecord {

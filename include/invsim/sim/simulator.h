@@ -54,6 +54,13 @@ struct StepStats {
   int admm_iterations = 0;
   int newton_iterations = 0;  // of the frictional solve
   int open = 0, stick = 0, slide = 0;
+  // Of the cloth with itself: the most in a step, further solves for pairs
+  // that touched on their way, vertices stopped (one in two steps counts
+  // twice), and the most pairs of faces that crossed at the start of a step.
+  int most_cloth_contacts = 0;
+  int sweep_solves = 0;
+  int stopped = 0;
+  int most_crossings = 0;
   double assembly_seconds = 0;
   double detection_seconds = 0;
   double factor_seconds = 0;
@@ -70,7 +77,8 @@ struct Pin {
 
 // What a simulator is made of. An effect called "inertia" gives the cloth its
 // mass in the momentum balance; without it steps are quasi-static, and loose
-// cloth needs something else that resists it (mass damping, pins).
+// cloth needs something else that resists it (mass damping, pins). A
+// SelfContact among the effects keeps layers of cloth apart.
 struct SimulatorSetup {
   Faces faces;    // of the cloth
   VectorXd mass;  // kg per vertex
@@ -93,6 +101,8 @@ class Simulator {
   const std::vector<std::unique_ptr<Effect>>& effects() const;
   const StepOptions& step_options() const;
   const BodyContactOptions& contact_options() const;
+  // Null if no effect is called "self_contact".
+  const SelfContactOptions* self_contact_options() const;
   std::shared_ptr<const BlockPattern> pattern() const;
   const Faces& body_faces() const;
   bool has_inertia() const;

@@ -21,12 +21,14 @@ namespace {
 constexpr double kGap = 0.1;
 // Pairs nearer than this are touching: there is no telling on which side.
 constexpr double kTouching = 1e-9;  // m
-// How much of the distance in which they were made parts keep, at most.
+// How much of the distance in which they were made neighbours keep, at most.
 constexpr double kMadeShare = 0.5;
 // Two faces give the same contact if a vertex is as near to both.
 constexpr double kSameDistance = 1e-9;  // m
 // Sine squared below which edges are parallel and met by their ends.
 constexpr double kParallel = 1e-4;
+// Rings of faces round those that cross in which cloth is not kept apart.
+constexpr int kRings = 2;
 // Stopping scales the ways down so often before it takes them away.
 constexpr int kScalings = 10;
 constexpr double kShareKept = 0.9;
@@ -63,6 +65,11 @@ bool MakeSource(const ElementPair& pair,
   return true;
 }
 
+bool IsBorder(PairFeature feature) {
+  return feature == PairFeature::kVertexVertex ||
+         feature == PairFeature::kVertexEdge;
+}
+
 }  // namespace
 
 struct ClothContactDetector::Impl {
@@ -80,6 +87,7 @@ struct ClothContactDetector::Impl {
   void FindTangled(const std::vector<std::array<int, 2>>& face_pairs);
   void AddElements(int f, int g);
   void AddIfNear(const ElementPair& pair, const Box& a, const Box& b);
+  bool Joined(const ElementPair& pair) const;
   double Thickness(const ElementPair& pair) const;
   bool NearerNeighbour(size_t begin, size_t end, size_t k) const;
   void AddNear(size_t begin,
@@ -98,6 +106,7 @@ struct ClothContactDetector::Impl {
   Faces faces;
   VectorXd mass;
   std::vector<std::array<int, 2>> edges;
+  std::vector<std::vector<int>> around;  // neighbours of each vertex, sorted
   // The vertices and edges that each face stands for, so that each is looked
   // at once.
   std::vector<std::vector<int>> own_vertices, own_edges;
@@ -118,6 +127,7 @@ ClothContactDetector::Impl::Impl(const SelfContact& effect,
     : options(effect.options()), made(effect.made()), faces(f), mass(m) {
   own_vertices.resize(faces.cols());
   own_edges.resize(faces.cols());
+  around.resize(mass.size());
   std::vector<char> owned(mass.size(), 0);
   for (int face = 0; face < faces.cols(); ++face) {
     for (const int v : faces.col(face)) {
@@ -128,7 +138,10 @@ ClothContactDetector::Impl::Impl(const SelfContact& effect,
   for (const Edge& e : Edges(faces)) {
     own_edges[e.faces[0]].push_back(static_cast<int>(edges.size()));
     edges.push_back({e.a, e.b});
+    around[e.a].push_back(e.b);
+    around[e.b].push_back(e.a);
   }
+  for (std::vector<int>& neighbours : around) std::ranges::sort(neighbours);
 }
 
 Box ClothContactDetector::Impl::Union(std::span<const int> vertices) const {
@@ -176,26 +189,28 @@ void ClothContactDetector::Impl::AddElements(int f, int g) {
   }
 }
 
-// Faces that cross at the start and those round them.
+// The vertices of faces that cross at the start and of kRings of faces round
+// them.
 void ClothContactDetector::Impl::FindTangled(
     const std::vector<std::array<int, 2>>& face_pairs) {
   std::vector<char> crossed(face_pairs.size(), 0);
   tbb::parallel_for(size_t{0}, face_pairs.size(), [&](size_t k) {
     crossed[k] = FacesCross(x0, faces, face_pairs[k][0], face_pairs[k][1]);
   });
-  std::vector<char> core(mass.size(), 0);
+  tangled.assign(mass.size(), 0);
   crossings = 0;
   for (size_t k = 0; k < face_pairs.size(); ++k) {
     if (!crossed[k]) continue;
     ++crossings;
     for (const int f : face_pairs[k])
-      for (const int v : faces.col(f)) core[v] = 1;
-  }
-  tangled = core;
-  if (crossings == 0) return;
-  for (int f = 0; f < faces.cols(); ++f)
-    if (core[faces(0, f)] || core[faces(1, f)] || core[faces(2, f)])
       for (const int v : faces.col(f)) tangled[v] = 1;
+  }
+  for (int ring = 0; crossings > 0 && ring < kRings; ++ring) {
+    const std::vector<char> core = tangled;
+    for (size_t v = 0; v < core.size(); ++v)
+      if (core[v])
+        for (const int w : around[v]) tangled[w] = 1;
+  }
 }
 
 // All pairs whose boxes, round the way of each vertex from x0 to x1 and a
@@ -227,7 +242,22 @@ void ClothContactDetector::Impl::FindCandidates(const Points& x1) {
       });
 }
 
+// Whether an edge, or two, lead from one element to the other.
+bool ClothContactDetector::Impl::Joined(const ElementPair& pair) const {
+  const int first = pair.kind == PairKind::kVertexFace ? 1 : 2;
+  for (int i = 0; i < first; ++i) {
+    for (int j = first; j < 4; ++j) {
+      const auto& a = around[pair.vertex[i]];
+      const auto& b = around[pair.vertex[j]];
+      if (std::ranges::binary_search(a, pair.vertex[j]) || Shares(a, b))
+        return true;
+    }
+  }
+  return false;
+}
+
 double ClothContactDetector::Impl::Thickness(const ElementPair& pair) const {
+  if (!Joined(pair)) return options.thickness;
   return std::min(
       options.thickness,
       kMadeShare * Nearest(pair.kind, Corners(made, pair)).distance);
@@ -299,6 +329,9 @@ void ClothContactDetector::Impl::AddNear(size_t begin,
       if (NearerNeighbour(begin, end, k)) continue;
     }
     source.thickness = Thickness(c.pair);
+    // The plane across the offset from a border stops what would slide past
+    // it. It is needed only where the thickness is not kept.
+    if (IsBorder(source.feature) && d >= source.thickness) continue;
     PairPoints corners = PairPoints::Zero();
     for (int j = 0; j < 4 && source.vertex[j] >= 0; ++j)
       corners.col(j) = x0.col(source.vertex[j]);
@@ -430,13 +463,14 @@ VectorXd ClothContactDetector::Stop(const Points& x1) {
         s.x0 +
         ((x1 - s.x0).array().rowwise() * share.transpose().array()).matrix();
     const std::vector<double> times = s.TouchTimes(moved);
+    const VectorXd before = share;
     bool free = true;
     for (size_t k = 0; k < times.size(); ++k) {
       if (times[k] == kNever) continue;
       free = false;
       double least = 1;
       for (const int v : s.candidates[k].pair.vertex)
-        least = std::min(least, share[v]);
+        least = std::min(least, before[v]);
       const double to = scaling < kScalings ? kShareKept * times[k] * least : 0;
       for (const int v : s.candidates[k].pair.vertex)
         share[v] = std::min(share[v], to);

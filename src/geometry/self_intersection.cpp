@@ -5,11 +5,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "invsim/geometry/surface_index.h"
 
 namespace invsim {
 namespace {
+
+// How far off the plane of a triangle a segment may be, relative to its length
+// or distance, to lie in it but for rounding.
+constexpr double kInPlane = 1e-12;
 
 // Whether a side of face f without vertices of g meets g.
 bool SideMeets(const Points& x, const Faces& faces, int f, int g) {
@@ -38,8 +43,11 @@ bool SegmentMeetsTriangle(const Vector3d& p,
   // ends, those of (p, q) with each side whether the line passes within.
   const Vector3d n = (b - a).cross(c - a);
   const double from = n.dot(p - a), to = n.dot(q - a);
-  if (from == to || (from > 0.0) == (to > 0.0)) return false;
+  if ((from > 0.0) == (to > 0.0)) return false;
   const Vector3d d = q - p;
+  if (std::max(std::abs(from), std::abs(to)) <=
+      kInPlane * n.norm() * std::max(d.norm(), (p - a).norm()))
+    return false;
   const double ab = d.dot((a - p).cross(b - p));
   const double bc = d.dot((b - p).cross(c - p));
   const double ca = d.dot((c - p).cross(a - p));

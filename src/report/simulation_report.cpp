@@ -77,6 +77,12 @@ Json StatsJson(const FrameStats& stats) {
   json["body_overlap_penetration_max_mm"] =
       1000 * stats.penetration.deepest_overlap;
   json["body_overlap_vertices"] = stats.penetration.overlap;
+  if (stats.crossing_pairs >= 0) {
+    json["cloth_contacts_max"] = s.most_cloth_contacts;
+    json["sweep_solves"] = s.sweep_solves;
+    json["stopped_vertices"] = s.stopped;
+    json["crossing_pairs_max"] = stats.crossing_pairs;
+  }
   json["mean_speed_m_per_s"] = stats.mean_speed;
   json["seconds"] = {{"total", stats.seconds},
                      {"assembly", s.assembly_seconds},
@@ -115,6 +121,12 @@ void PartText(const FrameStats& stats, std::ostream* out) {
     *out << "  in skin crossing skin "
          << ShortNumber(1000 * stats.penetration.deepest_overlap) << " mm, "
          << stats.penetration.overlap << " vertices at most\n";
+  if (stats.crossing_pairs >= 0)
+    *out << "  cloth on cloth        " << s.most_cloth_contacts
+         << " contacts at most, " << s.sweep_solves
+         << " more solves by the sweep, " << s.stopped << " vertices stopped\n"
+         << "  crossing faces        " << stats.crossing_pairs
+         << " pairs at most\n";
   *out << "  time                  " << ShortNumber(stats.seconds)
        << " s: assembly " << ShortNumber(s.assembly_seconds)
        << ", contact detection " << ShortNumber(s.detection_seconds)

@@ -6,6 +6,7 @@
 
 #include "invsim/base/interrupt.h"
 #include "invsim/base/stopwatch.h"
+#include "invsim/geometry/self_intersection.h"
 
 namespace invsim {
 
@@ -14,6 +15,7 @@ void FrameStats::Add(const FrameStats& next) {
   seconds += next.seconds;
   mean_speed = next.mean_speed;
   penetration.KeepWorst(next.penetration);
+  crossing_pairs = std::max(crossing_pairs, next.crossing_pairs);
 }
 
 double MeanSpeed(const ClothState& state) {
@@ -41,6 +43,7 @@ bool FrameStepper::Step(Points body, double duration, FrameStats* stats) {
   const FrameStats now = Measure();
   own.mean_speed = now.mean_speed;
   own.penetration = now.penetration;
+  own.crossing_pairs = now.crossing_pairs;
   stats->Add(own);
   return true;
 }
@@ -50,6 +53,9 @@ FrameStats FrameStepper::Measure() {
   now.mean_speed = MeanSpeed(state_);
   surface_.Update(body_);
   now.penetration = MeasurePenetration(surface_, state_.x);
+  if (simulator_->self_contact_options())
+    now.crossing_pairs = static_cast<int>(
+        SelfIntersections(state_.x, simulator_->faces()).size());
   return now;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cloth_derivatives.h"
 #include "invsim/base/stopwatch.h"
 
 namespace invsim {
@@ -154,7 +155,22 @@ void AddInertia(const VectorXd& mass, double dt, const Columns& x, Columns* y) {
     y->middleRows(3 * i, 3) += mass[i] / dt * x.middleRows(3 * i, 3);
 }
 
+// Rows of stopped vertices keep only their share.
+void ScaleByKept(const SubstepRecord& sub, Columns* rows) {
+  for (Eigen::Index i = 0; i < sub.kept.size(); ++i)
+    if (sub.kept[i] < 1) rows->middleRows(3 * i, 3) *= sub.kept[i];
+}
+
 }  // namespace
+
+int FixedContacts(const FrameRecord& record) {
+  int count = 0;
+  for (const SubstepRecord& sub : record.substeps) {
+    for (const ClothContact& source : sub.cloth_sources) count += source.swept;
+    count += static_cast<int>((sub.kept.array() < 1).count());
+  }
+  return count;
+}
 
 Sensitivity::Sensitivity(const Simulator& simulator)
     : simulator_(simulator), jacobian_(simulator.pattern()) {}
@@ -228,6 +244,9 @@ bool Sensitivity::Forward(const FrameRecord& record,
     Columns dw = Columns::Zero(contact_rows, p);
     PlaneDerivatives(simulator_, record, sub, vertices)
         .Forward(body0, body1, moves ? at.x : none, &dn, &dw);
+    const ClothDerivatives cloth(simulator_.self_contact_options(), sub);
+    Columns weights;
+    if (moves && !cloth.empty()) weights = cloth.Forward(at.x, &dn, &dw);
     Columns dv = at.v;  // of y, then of the solution
     for (size_t k = 0; k < sub.linearizations.size(); ++k) {
       const LinearizationRecord& lin = sub.linearizations[k];
@@ -259,10 +278,17 @@ bool Sensitivity::Forward(const FrameRecord& record,
         }
       }
       const Stopwatch watch;
-      jacobian_.Forward(dn, dw, &m);
+      if (weights.size() > 0) {
+        Columns dw_here = dw;
+        cloth.AddForward(lin, weights, &dw_here, &m);
+        jacobian_.Forward(dn, dw_here, &m);
+      } else {
+        jacobian_.Forward(dn, dw, &m);
+      }
       stats_.solve_seconds += watch.seconds();
       dv = std::move(m);
     }
+    ScaleByKept(sub, &dv);
     at.x += dt * dv;
     at.v = std::move(dv);
     moves = true;
@@ -291,12 +317,22 @@ bool Sensitivity::Adjoint(const FrameRecord& record,
     Columns dw = Columns::Zero(contact_rows, p);
     // x1 = x0 + dt v1.
     Columns z = at.v + dt * at.x;
+    ScaleByKept(sub, &z);
+    const ClothDerivatives cloth(simulator_.self_contact_options(), sub);
+    Columns weights = Columns::Zero(4 * sub.cloth_sources.size(), p);
     Columns start_v = Columns::Zero(at.v.rows(), p);
     for (size_t k = sub.linearizations.size(); k-- > 0;) {
       const LinearizationRecord& lin = sub.linearizations[k];
       if (!Factor(sub, lin)) return false;
       const Stopwatch watch;
-      jacobian_.Adjoint(&z, &dn, &dw);
+      if (cloth.empty()) {
+        jacobian_.Adjoint(&z, &dn, &dw);
+      } else {
+        Columns dw_here = Columns::Zero(contact_rows, p);
+        jacobian_.Adjoint(&z, &dn, &dw_here);
+        cloth.AddAdjoint(lin, dw_here, z, &weights);
+        dw += dw_here;
+      }
       stats_.solve_seconds += watch.seconds();
       // z is now the adjoint of m; what follows transposes Forward.
       if (s == 0 && k == 0 && !start) break;
@@ -329,6 +365,7 @@ bool Sensitivity::Adjoint(const FrameRecord& record,
     }
     PlaneDerivatives(simulator_, record, sub, vertices)
         .Adjoint(dn, dw, body0, body1, &at.x);
+    cloth.Adjoint(dn, dw, weights, &at.x);
     at.v = std::move(z);
     at.v += start_v;
   }

@@ -453,6 +453,7 @@ Simulator::Simulator(SimulatorSetup setup)
 Simulator::~Simulator() = default;
 
 int Simulator::num_vertices() const { return impl_->pattern->size; }
+const Faces& Simulator::faces() const { return impl_->setup.faces; }
 const VectorXd& Simulator::mass() const { return impl_->setup.mass; }
 const std::vector<std::unique_ptr<Effect>>& Simulator::effects() const {
   return impl_->setup.effects;

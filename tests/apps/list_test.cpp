@@ -37,7 +37,8 @@ TEST(ListCommandTest, NamesAllThereIs) {
                             "bending",
                             "stiffness_damping",
                             "mass_damping",
-                            "air_drag"}));
+                            "air_drag",
+                            "self_contact"}));
   EXPECT_THAT(Names("materials"),
               IsSupersetOf({"cotton", "denim", "jersey", "silk"}));
   EXPECT_EQ(

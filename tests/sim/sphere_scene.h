@@ -103,6 +103,16 @@ inline Garment Square(int n, double side, double height) {
   return GarmentFromRestMesh(vertices, faces);
 }
 
+// Two pieces of cloth as one garment.
+inline Garment Together(const Garment& a, const Garment& b) {
+  const int n = a.num_vertices();
+  Points vertices(3, n + b.num_vertices());
+  vertices << a.placed, b.placed;
+  Faces faces(3, a.num_faces() + b.num_faces());
+  faces << a.faces, (b.faces.array() + n).matrix();
+  return GarmentFromRestMesh(vertices, faces);
+}
+
 inline SimulatorSetup ClothSetup(const Garment& garment,
                                  const TriangleMesh& body) {
   Material material;

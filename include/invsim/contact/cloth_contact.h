@@ -15,10 +15,13 @@
 //   0
 //
 // with Coulomb friction in u, in the same problem as the contacts with the
-// body. A vertex makes contacts with the faces it is nearest to and with edges
-// and vertices where the distance has a local minimum; two edges do if they are
-// nearest within both. Forces act on all vertices of the pair by their weights,
-// so that they sum to zero, with no moment but that of the friction over d.
+// body. A vertex makes contacts with faces that it is nearest to within, two
+// edges if they are nearest within both; a vertex with an edge or a vertex
+// where the distance has a local minimum and is less than h. h is less for
+// parts of the cloth that are next to each other, as in a mesh finer than h:
+// half the distance in which they were made, at most. Forces act on all
+// vertices of the pair by their weights, so that they sum to zero, with no
+// moment but that of the friction over d.
 //
 // Sweep. After the solve every pair is followed over the way it moves
 // (FirstTimeWithin). One that would come within a tenth of h gets a plane

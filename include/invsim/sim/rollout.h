@@ -24,8 +24,11 @@ struct FrameStats {
   double seconds = 0;     // of wall clock
   double mean_speed = 0;  // of the cloth's vertices, m/s
   Penetration penetration;
+  // Pairs of cloth faces that cross each other; looked for only in a scene with
+  // self-contact, else -1.
+  int crossing_pairs = -1;
 
-  // Sums; of speed the last, of penetration the worst.
+  // Sums; of speed the last, of penetration and crossings the worst.
   void Add(const FrameStats& next);
 };
 

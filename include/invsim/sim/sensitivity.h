@@ -11,6 +11,11 @@
 // gap, the stiffness frozen at the start of each sub-step). Where a contact
 // changes its face, feature or mode the frame is only piecewise smooth; the
 // derivative is then that of the piece the solution lies on.
+//
+// Approximate in two places, both of the cloth's contact with itself: normals
+// and weights of contacts that the sweep found (ClothContact::swept) are held
+// fixed, and so is the share of its way that a stopped vertex went
+// (SubstepRecord::kept). FixedContacts counts them.
 
 #include <memory>
 #include <vector>
@@ -26,6 +31,10 @@ struct StateColumns {
   Columns x;
   Columns v;
 };
+
+// Swept contacts and stopped vertices of the frame: where it is zero, the
+// derivative is exact.
+int FixedContacts(const FrameRecord& record);
 
 struct SensitivityStats {
   int factorizations = 0;

@@ -97,6 +97,7 @@ class Simulator {
   ~Simulator();
 
   int num_vertices() const;
+  const Faces& faces() const;  // of the cloth
   const VectorXd& mass() const;
   const std::vector<std::unique_ptr<Effect>>& effects() const;
   const StepOptions& step_options() const;

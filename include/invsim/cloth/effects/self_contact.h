@@ -32,8 +32,8 @@ class SelfContact : public Effect {
       : options_(options), made_(garment.placed) {}
 
   const SelfContactOptions& options() const { return options_; }
-  // Positions in which the garment was made. Parts that are near each other
-  // there are kept apart by half that distance at most.
+  // Positions in which the garment was made: parts next to each other are kept
+  // apart by half their distance there at most.
   const Points& made() const { return made_; }
 
   std::string name() const override { return kName; }

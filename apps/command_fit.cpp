@@ -22,6 +22,7 @@
 #include "invsim/report/fit_writer.h"
 #include "invsim/report/run_folder.h"
 #include "invsim/sim/scene.h"
+#include "presets.h"
 
 namespace invsim {
 namespace {
@@ -108,6 +109,7 @@ class FitCommand : public Command {
   }
   void AddArguments(CLI::App* app, KeyFlags* flags) override;
   void AddOptions(OptionTable* table) override;
+  void TakeConfig(Config* config) override { ApplyPreset(config); }
   ExitCode Run(const CommandContext& context) override;
 
  private:
@@ -125,6 +127,7 @@ class FitCommand : public Command {
   FitInput input_;
   SceneOptions scene_;
   FitOptions fit_;
+  PresetChoice preset_;
   FrameWriterOptions output_;
   bool force_ = false;
   bool resume_ = false;
@@ -136,6 +139,7 @@ void FitCommand::AddArguments(CLI::App* app, KeyFlags* flags) {
     flags->Add("--optimizer", "fit.optimizer", "see invsim list optimizers");
     flags->Add("--loss", "data.loss", "see invsim list losses");
   }
+  flags->Add("--preset", "fit.preset", "see invsim list presets");
   flags->Add("--time-limit", "fit.time_limit", "seconds; 0: none");
   CLI::Option* force =
       app->add_flag("--force", force_, "replace an earlier run in DIR");
@@ -148,6 +152,7 @@ void FitCommand::AddOptions(OptionTable* table) {
   table->AddSection("input", &input_);
   Describe(table, &scene_);
   Describe(table, &fit_);
+  table->AddSection("fit", &preset_);
   table->AddSection("output", &output_);
 }
 

@@ -14,6 +14,7 @@
 #include "invsim/cloth/named_materials.h"
 #include "invsim/fit/loss.h"
 #include "invsim/fit/optimizer.h"
+#include "presets.h"
 
 namespace invsim {
 namespace {
@@ -83,6 +84,13 @@ std::vector<Item> MotionItems() {
   return items;
 }
 
+std::vector<Item> PresetItems() {
+  std::vector<Item> items;
+  for (const Preset& preset : Presets())
+    items.push_back({preset.name, preset.doc, preset.settings});
+  return items;
+}
+
 struct Kind {
   std::string name;
   std::vector<Item> (*items)();
@@ -94,7 +102,8 @@ const std::vector<Kind>& Kinds() {
                                           {"garments", GarmentItems},
                                           {"motions", MotionItems},
                                           {"losses", LossItems},
-                                          {"optimizers", OptimizerItems}};
+                                          {"optimizers", OptimizerItems},
+                                          {"presets", PresetItems}};
   return kinds;
 }
 

@@ -90,6 +90,19 @@ class FitCommandTest : public ::testing::Test {
   DressedMannequin person_;
 };
 
+TEST_F(FitCommandTest, PresetStandsBelowWhatIsSetByHand) {
+  ExpectRefused("fit " + Arguments("--preset quick"),
+                kUsage,
+                HasSubstr("expected one of draft, balanced, precise"));
+  const CommandResult result =
+      RunCommand("init " + Arguments("--frames 1 --preset draft"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(ReadFileBytes((out() / "config.resolved.toml").string()),
+              AllOf(HasSubstr("max_points = 1000  # preset draft"),
+                    HasSubstr("substeps = 1  # --set"),  // the preset says 2
+                    HasSubstr("preset = \"draft\"  # --preset")));
+}
+
 TEST_F(FitCommandTest, WritesTheRunFolder) {
   const CommandResult result = RunCommand("fit " + Arguments("--frames 2"));
   // Two iterations do not converge.

@@ -46,6 +46,8 @@ TEST(ListCommandTest, NamesAllThereIs) {
       (std::set<std::string>{
           "tshirt", "long_sleeved_shirt", "tank_top", "dress", "trousers"}));
   EXPECT_THAT(Names("motions"), IsSupersetOf({"walk_in_place", "squat"}));
+  EXPECT_EQ(Names("presets"),
+            (std::set<std::string>{"draft", "balanced", "precise"}));
   EXPECT_EQ(Names("losses"),
             (std::set<std::string>{"trivial",
                                    "huber",

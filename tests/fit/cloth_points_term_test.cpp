@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/fit/cloth_points_term.h"
 
+#include <ceres/problem.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 #include "dressed_mannequin.h"
+#include "invsim/base/random.h"
 #include "invsim/cloth/named_materials.h"
+#include "invsim/fit/objective.h"
 #include "invsim/sim/relaxation.h"
 #include "invsim/sim/scene.h"
 
@@ -159,6 +162,62 @@ TEST_F(ClothPoints, CarriedIsExactForTheShapeAndLastingChanges) {
   options_.lead.hold_frames = 1;
   CompareSlopes(Direction(true, false, false), kFrames, 0);
   CompareSlopes(Direction(true, true, true), kFrames, 0);
+}
+
+// Everything a fit minimises, block by block. A frame's own block misses
+// nothing of the priors and of this frame's points (later frames' are what a
+// history of one frame leaves out); the shape's, carried, nothing at all.
+TEST_F(ClothPoints, WholeObjectiveMatchesDifferencesInEveryBlock) {
+  PriorOptions priors;
+  priors.overlap = 1;
+  Random random(7);
+  for (const History history : {History::kCarried, History::kOneFrame}) {
+    options_.history = history;
+    options_.lead.hold_frames = history == History::kCarried ? 1 : 0;
+    ClothPointsTerm term = MakeTerm(kFrames);
+    BodySequence x = start_;
+    Objective objective(priors, {}, &term, &x, &person_.body());
+    double unused = 0;
+    std::vector<double> gradient;
+    ASSERT_TRUE(objective.Evaluate(&unused, &gradient));
+    // The priors, and the points of frame t or of all.
+    const auto cost = [&](int t) {
+      EXPECT_TRUE(objective.Evaluate(&unused, nullptr));
+      const CostTerms terms = objective.terms();
+      if (t < 0) return terms.total();
+      std::vector<double> costs;
+      EXPECT_EQ(term.Evaluate(x, kNoLimit, &costs), Evaluation::kDone);
+      return terms.total() - terms.data + costs[t];
+    };
+    size_t at = 0;
+    const std::vector<double*> blocks = objective.blocks();
+    for (size_t k = 0; k < blocks.size(); ++k) {
+      const int size = objective.problem()->ParameterBlockSize(blocks[k]);
+      const int frame = k == 0 ? -1 : static_cast<int>(k - 1) / 2;
+      Eigen::Map<VectorXd> block(blocks[k], size);
+      const VectorXd kept = block;
+      VectorXd u(size);
+      for (double& value : u) value = random.Normal();
+      const double slope =
+          u.dot(Eigen::Map<const VectorXd>(gradient.data() + at, size));
+      at += size;
+      if ((history == History::kCarried) != (k == 0)) continue;
+      // Which skin is bare and which face is touched change by jumps: on one
+      // side at least there is none.
+      const double h = 1e-7, here = cost(frame);
+      block = kept + h * u;
+      const double up = (cost(frame) - here) / h;
+      block = kept - h * u;
+      const double down = (here - cost(frame)) / h;
+      block = kept;
+      const double difference =
+          std::abs(up - slope) < std::abs(down - slope) ? up : down;
+      EXPECT_NEAR(slope, difference, 2e-3 * std::abs(difference) + 0.05)
+          << "block " << k;
+      EXPECT_GT(std::abs(difference), 1) << "block " << k;
+    }
+    EXPECT_EQ(at, gradient.size());
+  }
 }
 
 TEST_F(ClothPoints, GivesUpAboveTheLimit) {

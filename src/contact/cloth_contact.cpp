@@ -16,9 +16,10 @@
 namespace invsim {
 namespace {
 
-// The sweep keeps this share of the thickness, or of the distance at the start
-// if that is less, as its gap.
+// The sweep keeps this share of the thickness as its gap, see Gap().
 constexpr double kGap = 0.1;
+// The least share of its distance by which a pair may come nearer in a step.
+constexpr double kLeastGain = 1e-3;
 // Pairs nearer than this are touching: there is no telling on which side.
 constexpr double kTouching = 1e-9;  // m
 // How much of the distance in which they were made neighbours keep, at most.
@@ -63,6 +64,17 @@ bool MakeSource(const ElementPair& pair,
                     : count == 3                     ? PairFeature::kVertexEdge
                                  : PairFeature::kVertexVertex;
   return true;
+}
+
+// The least distance to which a pair may come that starts at `distance`: `full`
+// if there is that much, else half way nearer at most, and less and less
+// the nearer it is. Pairs pressed together step after step (n steps) by a body
+// that closes on them come down to about full / n, not to full / 2^n, which
+// would soon be rounding.
+double Gap(double full, double distance) {
+  const double gain =
+      0.5 * std::clamp(distance / full, kLeastGain, 1.0) * distance;
+  return std::min(full, distance - gain);
 }
 
 bool IsBorder(PairFeature feature) {
@@ -346,10 +358,11 @@ void ClothContactDetector::Impl::AddNear(size_t begin,
 // When the pair touches on its way to x1, or kNever.
 double ClothContactDetector::Impl::Touches(const Candidate& c,
                                            const Points& x1) const {
-  const double gap = kGap * std::min(options.thickness, c.nearest.distance);
-  if (gap < kGap * kTouching) return kNever;
-  return FirstTimeWithin(
-      gap, c.pair.kind, Corners(x0, c.pair), Corners(x1, c.pair));
+  if (c.nearest.distance < kTouching) return kNever;
+  return FirstTimeWithin(Gap(kGap * options.thickness, c.nearest.distance),
+                         c.pair.kind,
+                         Corners(x0, c.pair),
+                         Corners(x1, c.pair));
 }
 
 std::vector<double> ClothContactDetector::Impl::TouchTimes(

@@ -13,7 +13,7 @@ namespace {
 // Time goes on by this share of what is safe, and stops when no more than this
 // much of the gap is left.
 constexpr double kShare = 0.9;
-constexpr double kLeft = 0.1;
+constexpr double kLeft = 1e-4;
 // Advances before a pair that slides along within the gap's reach is given up
 // as touching.
 constexpr int kMostAdvances = 500;

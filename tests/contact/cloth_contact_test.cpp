@@ -86,7 +86,7 @@ TEST_P(ClothPlaneTest, DerivativeMatchesDifferences) {
       const auto twice =
           ((values(x + 2 * d) - values(x - 2 * d)) / (4 * h)).eval();
       EXPECT_LT((jacobian.col(k) - (4 * once - twice) / 3).norm(),
-                1e-6 * (1 + jacobian.norm()))
+                1e-6 * (1 + MatrixXd(jacobian).norm()))
           << k;
     }
   }
@@ -180,6 +180,22 @@ TEST_F(ClothContactDetectorTest, SweepFindsWhatWasOutOfReach) {
   const VectorXd share = detector_->Stop(x1);
   EXPECT_LE(share.maxCoeff(), 0.2);
   EXPECT_GT(share.maxCoeff(), 0.1);
+}
+
+// Pressed together again and again by what no contact force withstands: only
+// stopping keeps the layers apart, and does.
+TEST_F(ClothContactDetectorTest, StoppingHoldsStepAfterStep) {
+  for (int step = 0; step < 400; ++step) {
+    Detect(Points::Zero(3, 6));
+    ASSERT_EQ(detector_->crossings(), 0) << step;
+    Points x1 = garment_.placed;
+    for (int i = 3; i < 6; ++i) x1(1, i) -= 0.003;
+    const VectorXd share = detector_->Stop(x1);
+    for (int i = 3; i < 6; ++i) garment_.placed(1, i) -= 0.003 * share[i];
+  }
+  const double left = garment_.placed(1, 3);
+  EXPECT_GT(left, 1e-8);
+  EXPECT_LT(left, 1e-5);
 }
 
 TEST_F(ClothContactDetectorTest, LeavesOutWhatCrossesAtTheStart) {

@@ -97,7 +97,7 @@ TEST(ElementPair, NeverLateOnRandomMoves) {
         ++passed;
       } else {
         ++met;
-        EXPECT_LE(Nearest(kind, x0 + t * (x1 - x0)).distance, 1.11 * gap);
+        EXPECT_LE(Nearest(kind, x0 + t * (x1 - x0)).distance, 1.001 * gap);
       }
     }
   }

@@ -38,12 +38,13 @@ struct NearestPoints {
 NearestPoints Nearest(PairKind kind, const PairPoints& x);
 
 // The first time in [0, 1] at which the distance of elements that move on
-// straight lines from x0 to x1 may have come down to `gap` > 0 (within a tenth
-// of it), or 2 if that never happens. Conservative advancement: with all moves
-// taken about their mean, nothing comes nearer by more than the longest move on
-// either side, so time may go on by the distance over their sum (Li, Kaufman &
-// Jiang, Codimensional Incremental Potential Contact, 2021, sec. 5). Never
-// late; early if the elements slide past each other at a distance near `gap`.
+// straight lines from x0 to x1 may have come down to `gap` > 0 (but for
+// one part in ten thousand), or 2 if that never happens. Conservative
+// advancement: with all moves taken about their mean, nothing comes nearer by
+// more than the longest move on either side, so time may go on by the distance
+// over their sum (Li, Kaufman & Jiang, Codimensional Incremental Potential
+// Contact, 2021, sec. 5). Never late; early if the elements slide past each
+// other at a distance near `gap`.
 inline constexpr double kNever = 2;
 double FirstTimeWithin(double gap,
                        PairKind kind,

@@ -6,11 +6,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "fit/dressed_mannequin.h"
 #include "invsim/base/random.h"
+#include "invsim/base/stopwatch.h"
 #include "invsim/body/motion.h"
 #include "invsim/io/ply.h"
 #include "run_command.h"
@@ -317,6 +319,84 @@ TEST_F(FitCommandTest, RefusesAnUnwritableFolder) {
                     (directory_ / "file" / "run").string() + "'",
                 kInput,
                 HasSubstr("cannot be used for the results"));
+}
+
+// Body and cloth of a run.
+struct Outcome {
+  explicit Outcome(const fs::path& run)
+      : body(ReadMotion((run / "body.npz").string())),
+        cloth(ReadPly((run / "cloth/000001.ply").string()).vertices) {}
+  Motion body;
+  Points cloth;
+};
+
+// To the last bits, which vectorised sums leave to where memory happens to lie.
+void ExpectSame(const Outcome& a, const Outcome& b, const std::string& what) {
+  for (int t = 0; t < a.body.num_frames(); ++t) {
+    const BodyParameters p = a.body.Frame(t), q = b.body.Frame(t);
+    EXPECT_LT((p.shape - q.shape).norm(), 1e-10) << what;
+    EXPECT_LT((p.pose - q.pose).norm(), 1e-10) << what;
+    EXPECT_LT((p.translation - q.translation).norm(), 1e-10) << what;
+  }
+  EXPECT_LT((a.cloth - b.cloth).cwiseAbs().maxCoeff(), 1e-6) << what;
+}
+
+// Whenever a fit is killed, what it left is enough to end alike.
+// INVSIM_KILLS=50 for more kills than the suite has time for.
+TEST_F(FitCommandTest, GoesOnAfterBeingKilled) {
+  const char* asked = std::getenv("INVSIM_KILLS");
+  const int kills = asked ? std::atoi(asked) : 4;
+  const std::string arguments = Arguments("--frames 2");
+  const Stopwatch watch;
+  ASSERT_EQ(RunCommand("fit " + arguments).exit_code, kStoppedEarly);
+  const double whole = watch.seconds();
+  const Outcome expected(out());
+  Random random(11);
+  int resumed = 0;
+  for (int k = 0; k < kills; ++k) {
+    fs::remove_all(out());
+    const std::string at = std::to_string(random.Uniform(0.1, 0.95) * whole);
+    const std::string line = "timeout -s KILL " + at +
+                             " '" INVSIM_COMMAND "' fit " + arguments +
+                             " >/dev/null 2>&1";
+    static_cast<void>(std::system(line.c_str()));
+    CommandResult result =
+        RunCommand("fit --resume -q --out '" + out().string() + "'");
+    if (result.exit_code == kUsage) {  // killed before there was anything
+      EXPECT_THAT(result.err, HasSubstr("no run to resume"));
+      result = RunCommand("fit --force " + arguments);
+    } else {
+      ++resumed;
+    }
+    ASSERT_EQ(result.exit_code, kStoppedEarly)
+        << "killed at " << at << " s: " << result.err;
+    ExpectSame(Outcome(out()), expected, "killed at " + at + " s");
+  }
+  EXPECT_GT(resumed, 0);
+}
+
+// Files that may not grow stand for a full disk.
+TEST_F(FitCommandTest, KeepsTheCheckpointWhenTheDiskIsFull) {
+  const std::string arguments = Arguments("--frames 2");
+  ASSERT_EQ(RunCommand("fit " + arguments).exit_code, kStoppedEarly);
+  const Outcome expected(out());
+  fs::remove_all(out());
+  const fs::path log = directory_ / "log";
+  // The checkpoint's files are small, the results larger; ulimit counts
+  // blocks of 512 bytes.
+  const std::string line = "trap '' XFSZ; ulimit -f 48; '" INVSIM_COMMAND
+                           "' fit " +
+                           arguments + " >/dev/null 2>'" + log.string() + "'";
+  const int status = std::system(line.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), kInput);
+  const std::string message = ReadFileBytes(log.string());
+  EXPECT_THAT(message, HasSubstr(out().string()));
+  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
+  const CommandResult resumed =
+      RunCommand("fit --resume -q --out '" + out().string() + "'");
+  EXPECT_EQ(resumed.exit_code, kStoppedEarly) << resumed.err;
+  ExpectSame(Outcome(out()), expected, "disk full");
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void DecideSceneEffects(const RelaxationScene& scene,
                         SceneOptions* options) {
   SceneMotion motion;
   if (IsAuto(*options))
-    motion = MeasureMotion(scene, relaxation, options->contact.thickness);
+    motion = MeasureMotion(scene, relaxation, LayerThickness(*options));
   Decide(scene.garment, material, motion, options);
 }
 

@@ -89,6 +89,8 @@ Json StatsJson(const FrameStats& stats) {
                      {"contact_detection", s.detection_seconds},
                      {"factorization", s.factor_seconds},
                      {"solve", s.solve_seconds}};
+  for (const Timers::Part& part : s.effects.parts())
+    json["seconds"]["assembly_by_effect"][part.name] = part.seconds;
   return json;
 }
 

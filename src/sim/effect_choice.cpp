@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 #include <sstream>
+#include <stdexcept>
 #include <variant>
 
 #include "invsim/sim/scene.h"
@@ -26,6 +25,17 @@ struct Verdict {
   bool on;
   std::string reason;
 };
+
+// What an effect is set to in this scene.
+ConfigValue OptionOf(const SceneOptions& scene,
+                     const std::string& effect,
+                     const std::string& key) {
+  OptionTable table;
+  table.AddSection(effect, scene.effect_options.at(effect).get());
+  for (const OptionTable::Option& option : table.options())
+    if (option.key == effect + "." + key) return option.get();
+  throw std::logic_error("no option " + effect + "." + key);
+}
 
 double MeanRestEdge(const Garment& garment) {
   double sum = 0;
@@ -59,6 +69,8 @@ class Rules {
         garment_(garment),
         material_(material),
         motion_(motion),
+        speed_(scene.contact.friction > 0 ? motion.speed
+                                          : SceneMotion::kUnknown),
         gravity_(Vector("gravity", "acceleration").norm()),
         weight_(material.density * gravity_),
         damping_(Number("mass_damping", "rate")) {}
@@ -76,18 +88,12 @@ class Rules {
   }
 
  private:
-  ConfigValue Option(const std::string& effect, const std::string& key) const {
-    OptionTable table;
-    table.AddSection(effect, scene_.effect_options.at(effect).get());
-    for (const OptionTable::Option& option : table.options())
-      if (option.key == effect + "." + key) return option.get();
-    throw std::logic_error("no option " + effect + "." + key);
-  }
   double Number(const std::string& effect, const std::string& key) const {
-    return std::get<double>(Option(effect, key));
+    return std::get<double>(OptionOf(scene_, effect, key));
   }
   Vector3d Vector(const std::string& effect, const std::string& key) const {
-    const auto list = std::get<std::vector<double>>(Option(effect, key));
+    const auto list =
+        std::get<std::vector<double>>(OptionOf(scene_, effect, key));
     return {list[0], list[1], list[2]};
   }
 
@@ -149,13 +155,13 @@ class Rules {
     if (damping_ == 0) return {false, "its rate is zero"};
     if (!Inertia().on)
       return {true, "holds loose cloth in the place of inertia"};
-    const double u = motion_.speed;
+    const double u = speed_;
     return ByShare(u * damping_ / gravity_,
                    Short(damping_) + " per s " + AtSpeed(u));
   }
 
   Verdict AirDrag() const {
-    const double u = motion_.speed + Vector("air_drag", "wind").norm();
+    const double u = speed_ + Vector("air_drag", "wind").norm();
     const double density = Number("air_drag", "air_density");
     const double quadratic = 0.5 * density *
                              std::max(Number("air_drag", "normal"),
@@ -190,6 +196,7 @@ class Rules {
   const Garment& garment_;
   const Material& material_;
   const SceneMotion& motion_;
+  const double speed_;    // of the cloth, m/s
   const double gravity_;  // m/s^2
   const double weight_;   // N/m^2
   const double damping_;  // 1/s
@@ -236,6 +243,12 @@ std::vector<EffectDecision> DecideEffects(const SceneOptions& options,
   all.push_back(Friction(options));
   all.push_back(MeasuredFabric(material));
   return all;
+}
+
+double LayerThickness(const SceneOptions& options) {
+  return std::max(
+      options.contact.thickness,
+      std::get<double>(OptionOf(options, "self_contact", "thickness")));
 }
 
 std::vector<std::string> EffectsOn(const std::vector<EffectDecision>& all) {

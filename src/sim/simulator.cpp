@@ -104,6 +104,7 @@ void StepStats::Add(const StepStats& o) {
   stopped += o.stopped;
   most_crossings = std::max(most_crossings, o.most_crossings);
   assembly_seconds += o.assembly_seconds;
+  effects.Add(o.effects);
   detection_seconds += o.detection_seconds;
   factor_seconds += o.factor_seconds;
   solve_seconds += o.solve_seconds;
@@ -118,7 +119,9 @@ struct Simulator::Impl {
   };
 
   void DetectContacts(const Points& b0, const Points& b1, SubstepRecord* sub);
-  void Linearize(const SubstepRecord& sub, LinearizationRecord* lin);
+  void Linearize(const SubstepRecord& sub,
+                 LinearizationRecord* lin,
+                 Timers* timers);
   void DetectClothContacts(SubstepRecord* sub, StepStats* stats);
   std::vector<Vector3d> StartForces(const SubstepRecord& sub) const;
   Outcome Solve(SubstepRecord* sub, LinearizationRecord* lin, StepStats* stats);
@@ -139,6 +142,7 @@ struct Simulator::Impl {
                 FrameRecord* record);
 
   SimulatorSetup setup;
+  std::vector<std::string> names;  // of the effects
   bool inertia = false;
   bool velocity_dependent = false;
   std::shared_ptr<const BlockPattern> pattern;
@@ -159,6 +163,7 @@ Simulator::Impl::Impl(SimulatorSetup s) : setup(std::move(s)) {
   BlockPatternBuilder builder(n);
   for (const auto& effect : setup.effects) {
     effect->AddStencils(&builder);
+    names.push_back(effect->name());
     inertia = inertia || effect->name() == "inertia";
     velocity_dependent = velocity_dependent || effect->depends_on_velocity();
     if (const auto* self = dynamic_cast<const SelfContact*>(effect.get()))
@@ -211,22 +216,22 @@ void Simulator::Impl::DetectContacts(const Points& b0,
 }
 
 void Simulator::Impl::Linearize(const SubstepRecord& sub,
-                                LinearizationRecord* lin) {
+                                LinearizationRecord* lin,
+                                Timers* timers) {
   const double dt = sub.dt;
   const bool first = sub.linearizations.empty();
   lin->a = BlockMatrix(pattern);
   Points force = Points::Zero(3, pattern->size);
-  for (const auto& effect : setup.effects) {
-    effect->AddStiffness(lin->y, dt, 1, &lin->a);
-    effect->AddForce(lin->y, &force);
+  if (velocity_dependent) lin->damping = BlockMatrix(pattern);
+  for (size_t k = 0; k < setup.effects.size(); ++k) {
+    const ScopedTimer timer(timers, names[k]);
+    const Effect& effect = *setup.effects[k];
+    effect.AddStiffness(lin->y, dt, 1, &lin->a);
+    effect.AddForce(lin->y, &force);
+    if (effect.depends_on_velocity())
+      effect.AddStiffness(lin->y, 0, 1, &lin->damping);
   }
   lin->b = Stacked(force);
-  if (velocity_dependent) {
-    lin->damping = BlockMatrix(pattern);
-    for (const auto& effect : setup.effects)
-      if (effect->depends_on_velocity())
-        effect->AddStiffness(lin->y, 0, 1, &lin->damping);
-  }
   // K (y.x - x0) + D y.v: only D v0 at the start of the sub-step; later
   // y.x - x0 = dt y.v.
   const VectorXd y_v = Stacked(lin->y.v);
@@ -301,7 +306,7 @@ Simulator::Impl::Outcome Simulator::Impl::Iterate(SubstepRecord* sub,
     } else {
       lin.y = y;
       const Stopwatch assembly;
-      Linearize(*sub, &lin);
+      Linearize(*sub, &lin, &stats->effects);
       stats->assembly_seconds += assembly.seconds();
     }
     if (k > 0) {

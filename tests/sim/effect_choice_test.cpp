@@ -80,6 +80,16 @@ TEST_F(DecideEffectsTest, AStrongerWindMattersLessToHeavierCloth) {
   EXPECT_FALSE(Of("air_drag").on);
 }
 
+// It may slide off a body that hardly moves.
+TEST_F(DecideEffectsTest, WithoutFrictionTheSpeedOfTheClothIsNotTheBodys) {
+  motion_.speed = 0;
+  EXPECT_FALSE(Of("air_drag").on);
+  scene_.contact.friction = 0;
+  EXPECT_TRUE(Of("air_drag").on);
+  EXPECT_TRUE(Of("mass_damping").on);
+  EXPECT_THAT(Of("air_drag").reason, HasSubstr("not known"));
+}
+
 TEST_F(DecideEffectsTest, MassDampingByWhatItTakesOfAFall) {
   EXPECT_TRUE(Of("mass_damping").on);  // 0.5 per s x 1 m/s: 5 % of gravity
   motion_.speed = 0.1;
@@ -130,11 +140,16 @@ TEST_F(DecideEffectsTest, StiffnessDampingUnlessTheStepDampsMore) {
 }
 
 TEST_F(DecideEffectsTest, SelfContactOnlyIfLayersCanMeet) {
-  if (!scene_.effect_options.contains("self_contact"))
-    GTEST_SKIP() << "no such effect in the registry";
   EXPECT_FALSE(Of("self_contact").on);
   motion_.layers_can_meet = true;
   EXPECT_TRUE(Of("self_contact").on);
+}
+
+TEST_F(DecideEffectsTest, LayersAreAsThickAsTheThickerContact) {
+  Set("contact.thickness = 0.002\neffects.self_contact.thickness = 0.001");
+  EXPECT_EQ(LayerThickness(scene_), 0.002);
+  Set("effects.self_contact.thickness = 0.004");
+  EXPECT_EQ(LayerThickness(scene_), 0.004);
 }
 
 TEST_F(DecideEffectsTest, FrictionOnlyWhereThereIsAny) {

@@ -22,12 +22,14 @@
 //   stiffness damping  its time constant over the length of a step, which
 //                      itself damps as that time constant would (implicit
 //                      Euler): left out below kLostInStep
-//   self_contact       on if distant parts of the garment can come within its
+//   self contact       on if distant parts of the garment can come within its
 //                      thickness of each other
 //
 // Without gravity there is no weight to compare with, and what the motion
-// decides is on. What is not known of the motion counts as large; an effect
-// with no rule here is on; one whose constants are zero is off.
+// decides is on. Without friction the skin does not carry the cloth, which may
+// slide off as fast as it likes: u is not known. What is not known of the
+// motion counts as large; an effect with no rule here is on; one whose
+// constants are zero is off.
 //
 // Friction and the direction- and strain-dependence of measured fabrics are
 // not effects of the registry but belong to contact and material. They are
@@ -63,6 +65,10 @@ std::vector<EffectDecision> DecideEffects(const SceneOptions& options,
                                           const Garment& garment,
                                           const Material& material,
                                           const SceneMotion& motion);
+
+// How near layers of the garment may come before contact, of the cloth with
+// itself or of both with a body between them, keeps them apart, m.
+double LayerThickness(const SceneOptions& options);
 
 // The registry's effects that are on, in order.
 std::vector<std::string> EffectsOn(const std::vector<EffectDecision>& all);

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "invsim/base/timer.h"
 #include "invsim/cloth/effect.h"
 #include "invsim/contact/body_contact.h"
 #include "invsim/contact/friction_solver.h"
@@ -62,6 +63,7 @@ struct StepStats {
   int stopped = 0;
   int most_crossings = 0;
   double assembly_seconds = 0;
+  Timers effects;  // of assembly, by effect; only those there are
   double detection_seconds = 0;
   double factor_seconds = 0;
   double solve_seconds = 0;

@@ -13,6 +13,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeDemoCommand());
   commands.push_back(MakeEvalCommand());
   commands.push_back(MakeFitCommand());
+  commands.push_back(MakeGalleryCommand());
   commands.push_back(MakeInitCommand());
   commands.push_back(MakeInspectCommand());
   commands.push_back(MakeListCommand());

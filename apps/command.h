@@ -87,6 +87,7 @@ std::unique_ptr<Command> MakeCompareCommand();
 std::unique_ptr<Command> MakeDemoCommand();
 std::unique_ptr<Command> MakeEvalCommand();
 std::unique_ptr<Command> MakeFitCommand();
+std::unique_ptr<Command> MakeGalleryCommand();
 std::unique_ptr<Command> MakeInitCommand();
 std::unique_ptr<Command> MakeInspectCommand();
 std::unique_ptr<Command> MakeListCommand();

@@ -187,7 +187,8 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
                                  const Points& v0,
                                  const VectorXd& mass,
                                  std::vector<Contact>* contacts,
-                                 std::vector<BodyContact>* sources) {
+                                 std::vector<BodyContact>* sources,
+                                 const Points* v1) {
   Impl& s = *impl_;
   s.surface.Update(body0);
   const int n = static_cast<int>(x0.cols());
@@ -204,7 +205,9 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
         for (int i = range.begin(); i < range.end(); ++i) {
           const Vector3d x = x0.col(i);
           const double still = options.thickness + options.margin;
-          double radius = still + dt * (v0.col(i).norm() + fastest);
+          double speed = v0.col(i).norm();
+          if (v1) speed = std::max(speed, v1->col(i).norm());
+          double radius = still + dt * (speed + fastest);
           if (s.inside[i])
             radius = std::max(radius, s.surface.Nearest(x).distance + 1e-3);
           s.surface.Within(x, radius, &near);
@@ -212,9 +215,10 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
           s.Minima(x, near, &found[i]);
           s.DropUnphysical(x, &found[i]);
           std::erase_if(found[i], [&](const Minimum& m) {
-            const Vector3d slip =
-                v0.col(i) - s.Velocity(body0, body1, m.at, dt);
-            return m.side > 0 && m.at.distance > still + dt * slip.norm();
+            const Vector3d body = s.Velocity(body0, body1, m.at, dt);
+            double slip = (v0.col(i) - body).norm();
+            if (v1) slip = std::max(slip, (v1->col(i) - body).norm());
+            return m.side > 0 && m.at.distance > still + dt * slip;
           });
         }
       });

@@ -67,7 +67,7 @@ std::vector<std::string> ChosenEffects(const SceneOptions& options,
 }
 
 SimulatorSetup MakeSetup(const SceneOptions& options,
-                         const BodyModel& body,
+                         const TriangleMesh& body,
                          const Garment& garment,
                          const Material& material) {
   SimulatorSetup setup;
@@ -78,9 +78,19 @@ SimulatorSetup MakeSetup(const SceneOptions& options,
         options.effect_options.at(name)->Make(garment, material));
   setup.contact = options.contact;
   setup.step = options.step;
-  setup.body_faces = body.faces();
-  setup.body = body.Vertices({});
+  setup.body_faces = body.faces;
+  setup.body = body.vertices;
   return setup;
+}
+
+SimulatorSetup MakeSetup(const SceneOptions& options,
+                         const BodyModel& body,
+                         const Garment& garment,
+                         const Material& material) {
+  return MakeSetup(options,
+                   TriangleMesh{body.Vertices({}), body.faces()},
+                   garment,
+                   material);
 }
 
 void CheckGarmentFits(const Garment& garment,

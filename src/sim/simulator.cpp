@@ -20,6 +20,10 @@ constexpr int kSweeps = 4;
 // The unit of force residuals where there is no gravity to weigh with.
 constexpr double kStandardGravity = 9.81;
 
+// How often contacts that a solution shows to be missing are added to a
+// sub-step.
+constexpr int kLateRounds = 4;
+
 Points Blend(const Points& a, const Points& b, double s) {
   return (1 - s) * a + s * b;
 }
@@ -118,7 +122,11 @@ struct Simulator::Impl {
     bool converged = true;
   };
 
-  void DetectContacts(const Points& b0, const Points& b1, SubstepRecord* sub);
+  void DetectContacts(const Points& b0,
+                      const Points& b1,
+                      const Points* v1,
+                      SubstepRecord* sub);
+  bool FindLateContacts(const Points& b0, const Points& b1, SubstepRecord* sub);
   void Linearize(const SubstepRecord& sub,
                  LinearizationRecord* lin,
                  Timers* timers);
@@ -183,6 +191,7 @@ Simulator::Impl::Impl(SimulatorSetup s) : setup(std::move(s)) {
 
 void Simulator::Impl::DetectContacts(const Points& b0,
                                      const Points& b1,
+                                     const Points* v1,
                                      SubstepRecord* sub) {
   if (detector)
     detector->Detect(setup.contact,
@@ -193,7 +202,8 @@ void Simulator::Impl::DetectContacts(const Points& b0,
                      sub->start.v,
                      setup.mass,
                      &sub->contacts,
-                     &sub->sources);
+                     &sub->sources,
+                     v1);
   for (const Pin& pin : setup.pins) {
     Contact contact;
     contact.kind = ContactKind::kPin;
@@ -213,6 +223,32 @@ void Simulator::Impl::DetectContacts(const Points& b0,
     sub->sources.resize(kept);
     sub->contacts.push_back(contact);
   }
+}
+
+// Contacts are sought as far as vertices can get at the speed they start with,
+// and a margin. In a long step gravity alone takes them further. True if one
+// that got further met something: the contacts are then those found along the
+// way it took.
+bool Simulator::Impl::FindLateContacts(const Points& b0,
+                                       const Points& b1,
+                                       SubstepRecord* sub) {
+  const LinearizationRecord& lin = sub->linearizations.back();
+  const Points v1 = Eigen::Map<const Points>(lin.v.data(), 3, pattern->size);
+  const double margin = setup.contact.margin / sub->dt;
+  if (!((v1.colwise().norm().array() >
+         sub->start.v.colwise().norm().array() + margin)
+            .any()))
+    return false;
+  SubstepRecord again;
+  again.dt = sub->dt;
+  again.start = sub->start;
+  DetectContacts(b0, b1, &v1, &again);
+  if (again.sources.size() <= sub->sources.size()) return false;
+  sub->contacts = std::move(again.contacts);
+  sub->sources = std::move(again.sources);
+  sub->cloth_sources.clear();
+  sub->linearizations.clear();
+  return true;
 }
 
 void Simulator::Impl::Linearize(const SubstepRecord& sub,
@@ -359,16 +395,25 @@ Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
                                                   const Points& body1,
                                                   SubstepRecord* sub,
                                                   StepStats* stats) {
-  const Stopwatch detection;
+  Points b0, b1;
   if (detector) {
-    DetectContacts(
-        Blend(body0, body1, sub->s0), Blend(body0, body1, sub->s1), sub);
-  } else {
-    DetectContacts(body0, body1, sub);
+    b0 = Blend(body0, body1, sub->s0);
+    b1 = Blend(body0, body1, sub->s1);
   }
+  const Stopwatch detection;
+  DetectContacts(b0, b1, nullptr, sub);
   if (cloth_detector) DetectClothContacts(sub, stats);
   stats->detection_seconds += detection.seconds();
   Outcome outcome = Iterate(sub, stats);
+  for (int k = 0; k < kLateRounds && detector && outcome.finite; ++k) {
+    const Stopwatch late;
+    const bool found = FindLateContacts(b0, b1, sub);
+    if (found && cloth_detector) DetectClothContacts(sub, stats);
+    stats->detection_seconds += late.seconds();
+    if (!found) break;
+    stats->worst_residual = 0;  // of an attempt that is not kept
+    outcome = Iterate(sub, stats);
+  }
   if (cloth_detector)
     for (int round = 0; outcome.finite && SweepCloth(round, sub, stats);
          ++round)

@@ -34,51 +34,50 @@ double Median(std::vector<double> values) {
 void Describe(OptionTable* table, GradientCheckOptions* o) {
   table->Add(
       "steps", &o->steps, {.doc = "step sizes of the differences", .above = 0});
+  table->Add("floor",
+             &o->floor,
+             {.doc = "share of the body's motion below which a column is "
+                     "measured against that share",
+              .at_least = 0});
 }
 
 GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
-                                 const BodyModel& body,
+                                 const MovableBody& body,
                                  const Points& previous,
-                                 const BodyParameters& parameters,
                                  double duration,
                                  const ClothState& start,
                                  Simulator* simulator) {
-  const auto run = [&](const BodyParameters& p, FrameRecord* record) {
+  const auto run = [&](const Points& at, FrameRecord* record) {
     ClothState state = start;
     StepStats stats;
-    if (!simulator->Advance(
-            previous, body.Vertices(p), duration, &state, &stats, record))
+    if (!simulator->Advance(previous, at, duration, &state, &stats, record))
       throw InputError(
           "check-gradient: the frame cannot be simulated: its "
           "result is not finite");
     return VectorXd(Stacked(state.x));
   };
-  const Points at = body.Vertices(parameters);
   FrameRecord record;
-  run(parameters, &record);
+  run(body.at, &record);
   const std::vector<int> vertices =
       Sensitivity::BodyVertices(simulator->body_faces(), record);
+  const Columns body_columns = body.jacobian(vertices);
   Sensitivity sensitivity(*simulator);
   StateColumns derivative;
-  if (!sensitivity.Forward(record,
-                           vertices,
-                           Columns(),
-                           body.Pose(parameters)->Jacobian(vertices),
-                           nullptr,
-                           &derivative))
+  if (!sensitivity.Forward(
+          record, vertices, Columns(), body_columns, nullptr, &derivative))
     throw InputError("check-gradient: the derivative of the frame is singular");
 
   GradientCheck check;
   check.steps = options.steps;
   std::vector<std::vector<double>> errors(options.steps.size());
-  for (int k = 0; k < kNumBodyParameters; ++k) {
+  for (int k = 0; k < body.parameters; ++k) {
     const VectorXd column = derivative.x.col(k);
     GradientColumn result;
     result.parameter = k;
     result.norm = column.norm();
+    const double floor = options.floor * body_columns.col(k).norm();
     // A parameter that does not move the body cannot move the cloth.
-    if (result.norm == 0 &&
-        body.Vertices(Moved(parameters, k, options.steps[0])) == at) {
+    if (result.norm == 0 && body.moved(k, options.steps[0]) == body.at) {
       ++check.still;
       continue;
     }
@@ -87,13 +86,14 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
     for (size_t s = 0; s < options.steps.size(); ++s) {
       const double h = options.steps[s];
       FrameRecord plus, minus;
-      const VectorXd difference = (run(Moved(parameters, k, h), &plus) -
-                                   run(Moved(parameters, k, -h), &minus)) /
-                                  (2 * h);
+      const VectorXd difference =
+          (run(body.moved(k, h), &plus) - run(body.moved(k, -h), &minus)) /
+          (2 * h);
       if (difference.norm() == 0 && result.norm == 0) continue;
       const double error =
           (column - difference).norm() /
-          std::max(difference.norm(), std::numeric_limits<double>::min());
+          std::max(
+              {difference.norm(), floor, std::numeric_limits<double>::min()});
       const bool same =
           SameContacts(record, plus) && SameContacts(record, minus);
       errors[s].push_back(error);
@@ -118,6 +118,26 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
   for (const std::vector<double>& e : errors)
     check.median_error.push_back(Median(e));
   return check;
+}
+
+GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
+                                 const BodyModel& body,
+                                 const Points& previous,
+                                 const BodyParameters& parameters,
+                                 double duration,
+                                 const ClothState& start,
+                                 Simulator* simulator) {
+  MovableBody movable;
+  movable.at = body.Vertices(parameters);
+  movable.parameters = kNumBodyParameters;
+  movable.moved = [&](int parameter, double step) {
+    return body.Vertices(Moved(parameters, parameter, step));
+  };
+  movable.jacobian = [&](const std::vector<int>& vertices) {
+    return Columns(body.Pose(parameters)->Jacobian(vertices));
+  };
+  return CheckFrameGradient(
+      options, movable, previous, duration, start, simulator);
 }
 
 }  // namespace invsim

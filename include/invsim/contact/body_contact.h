@@ -94,7 +94,9 @@ class BodyContactDetector {
   int FindInside(const Points& body, const Points& x);
 
   // The contacts of a sub-step in which the body moves from body0 to body1 and
-  // the cloth starts at x0 with velocity v0. `mass` in kg per vertex.
+  // the cloth starts at x0 with velocity v0. `mass` in kg per vertex. Contacts
+  // are sought as far as v0 takes a vertex and, if `v1` is given, a guess at
+  // the velocity at the end, as far as that does.
   void Detect(const BodyContactOptions& options,
               double dt,
               const Points& body0,
@@ -103,7 +105,8 @@ class BodyContactDetector {
               const Points& v0,
               const VectorXd& mass,
               std::vector<Contact>* contacts,
-              std::vector<BodyContact>* sources);
+              std::vector<BodyContact>* sources,
+              const Points* v1 = nullptr);
 
  private:
   struct Impl;

@@ -24,6 +24,7 @@
 #include "invsim/cloth/effect_registry.h"
 #include "invsim/cloth/garment.h"
 #include "invsim/cloth/material.h"
+#include "invsim/geometry/mesh.h"
 #include "invsim/sim/effect_choice.h"
 #include "invsim/sim/simulator.h"
 
@@ -63,7 +64,12 @@ std::vector<std::string> ChosenEffects(const SceneOptions& options,
                                        const Garment& garment,
                                        const Material& material);
 
-// Throws as ChosenEffects does.
+// Throws as ChosenEffects does. A body without faces is none: there is nothing
+// to collide with.
+SimulatorSetup MakeSetup(const SceneOptions& options,
+                         const TriangleMesh& body,
+                         const Garment& garment,
+                         const Material& material);
 SimulatorSetup MakeSetup(const SceneOptions& options,
                          const BodyModel& body,
                          const Garment& garment,

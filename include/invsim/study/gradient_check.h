@@ -13,6 +13,7 @@
 // swept and the best agreement kept (the minimum of the V-shaped error curve:
 // truncation at large steps, rounding at small ones).
 
+#include <functional>
 #include <vector>
 
 #include "invsim/body/body_model.h"
@@ -22,11 +23,16 @@ namespace invsim {
 
 struct GradientCheckOptions {
   std::vector<double> steps = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+  // A column smaller than this share of the body's own (over the vertices in
+  // contact) is measured against that share: of cloth that slides, or that the
+  // body hardly touches, nothing but rounding is left to compare. 0: every
+  // column against itself.
+  double floor = 0;
 };
 void Describe(OptionTable* table, GradientCheckOptions* options);
 
 struct GradientColumn {
-  int parameter = 0;     // 0-9 beta, 10-81 theta, 82-84 t
+  int parameter = 0;     // of a BodyModel: 0-9 beta, 10-81 theta, 82-84 t
   double norm = 0;       // of the analytic column, over all vertices
   double error = 0;      // |analytic - difference| / |difference|, best step
   double step = 0;       // at which it was reached
@@ -43,10 +49,28 @@ struct GradientCheck {
   std::vector<double> steps, median_error;
 };
 
-// Simulates the frame in which the body moves from `previous` to `parameters`
+// A body at the end of a frame and the numbers that move it there.
+struct MovableBody {
+  Points at;           // 3 x V
+  int parameters = 0;  // p
+  // The body with one of them changed by `step`.
+  std::function<Points(int parameter, double step)> moved;
+  // d(listed vertices)/d(parameters), 3 rows per entry, p columns.
+  std::function<Columns(const std::vector<int>& vertices)> jacobian;
+};
+
+// Simulates the frame in which the body moves from `previous` to `body.at`
 // and the cloth starts at `start`, and checks its derivative. `simulator` must
 // be solved tightly (friction tolerance near 1e-10) for small differences to
 // mean anything. Throws InputError if the frame cannot be simulated.
+GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
+                                 const MovableBody& body,
+                                 const Points& previous,
+                                 double duration,
+                                 const ClothState& start,
+                                 Simulator* simulator);
+
+// The same with beta, theta and t as the parameters.
 GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
                                  const BodyModel& body,
                                  const Points& previous,

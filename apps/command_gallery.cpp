@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// invsim gallery: hard cases of the simulator, and whether it holds in them.
+
+#include <unistd.h>
+
+#include <iostream>
+#include <optional>
+
+#include "command.h"
+#include "invsim/base/error.h"
+#include "invsim/base/interrupt.h"
+#include "invsim/base/progress.h"
+#include "invsim/report/gallery_report.h"
+#include "invsim/report/run_folder.h"
+#include "invsim/study/hard_scene.h"
+
+namespace invsim {
+namespace {
+
+struct GalleryOptions {
+  std::string only;
+  bool derivative = true;
+};
+
+void Describe(OptionTable* table, GalleryOptions* o) {
+  table->Add("only",
+             &o->only,
+             {.doc = "run the cases whose name has this in it; empty: all"});
+  table->Add("derivative",
+             &o->derivative,
+             {.doc = "also hold the derivative of the last frame against "
+                     "differences"});
+}
+
+class GalleryCommand : public Command {
+ public:
+  std::string name() const override { return "gallery"; }
+  std::string doc() const override {
+    return "hard cases of the simulator, and whether it holds in them";
+  }
+  void AddArguments(CLI::App* app, KeyFlags* flags) override {
+    flags->Add("--only", "gallery.only", "cases with this in their name");
+    app->add_flag("--force", force_, "replace an earlier report in DIR");
+  }
+  void AddOptions(OptionTable* table) override {
+    table->AddSection("gallery", &options_);
+  }
+  ExitCode Run(const CommandContext& context) override;
+
+ private:
+  std::vector<const HardCase*> Chosen() const;
+
+  GalleryOptions options_;
+  bool force_ = false;
+};
+
+std::vector<const HardCase*> GalleryCommand::Chosen() const {
+  std::vector<const HardCase*> chosen;
+  for (const HardCase& c : HardCases())
+    if (c.name.find(options_.only) != std::string::npos) chosen.push_back(&c);
+  if (chosen.empty())
+    throw UsageError("gallery.only: no case has '" + options_.only +
+                     "' in its name; the first is " + HardCases()[0].name);
+  return chosen;
+}
+
+ExitCode GalleryCommand::Run(const CommandContext& context) {
+  const InterruptGuard interrupt;
+  const std::vector<const HardCase*> chosen = Chosen();
+  std::optional<RunFolder> folder;
+  if (!context.out.empty()) folder.emplace(context.out, force_);
+  GalleryReport report;
+  report.derivative = options_.derivative;
+  {
+    Progress progress(context.verbosity < 0 ? nullptr : &std::cerr,
+                      StyleFor(STDERR_FILENO),
+                      "cases",
+                      static_cast<int>(chosen.size()));
+    for (const HardCase* c : chosen) {
+      if (InterruptRequested()) return ExitCode::kInterrupted;
+      report.rows.push_back({*c, RunHardCase(*c, options_.derivative)});
+      progress.Advance(c->name);
+    }
+  }
+  if (folder) {
+    folder->Write("config.resolved.toml", ResolvedToml(*context.options));
+    folder->Write("report.json", GalleryJson(report));
+    folder->Write("report.html", GalleryHtml(report));
+  }
+  std::cout << (context.json ? GalleryJson(report) : GalleryText(report));
+  return Holds(report) ? ExitCode::kOk : ExitCode::kFailed;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> MakeGalleryCommand() {
+  return std::make_unique<GalleryCommand>();
+}
+
+}  // namespace invsim

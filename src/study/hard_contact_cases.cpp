@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// Hard scenes: contact at its corners.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hard_cases.h"
+
+namespace invsim {
+namespace {
+
+Matrix3d Turn(double angle, const Vector3d& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+HardScene StartInside() {
+  HardScene scene = SheetOverBall();
+  scene.garment.placed.row(1).array() -= 0.033;
+  scene.grace = 20;
+  return scene;
+}
+
+// Two boards close on an upright sheet to a gap of 2 mm, less than the cloth
+// and its two clearances need, while one of them slides along.
+HardScene Squeezed() {
+  const Vector3d half(0.05, 0.15, 0.15);
+  const TriangleMesh left = Shifted(BoxMesh(half), Vector3d(-0.07, 0, 0));
+  const TriangleMesh right = Shifted(BoxMesh(half), Vector3d(0.07, 0, 0));
+  HardScene scene = SceneOf(Upright(SheetMesh(8, 0.2)), Joined(left, right));
+  scene.frames = 60;
+  scene.body_at = [left, right](int frame) {
+    const double t = std::min(frame, 40) / 40.0;
+    const Vector3d in(0.019 * t, 0, 0), along(0, 0.05 * t, 0);
+    return Joined(Shifted(left, in), Shifted(right, along - in)).vertices;
+  };
+  return scene;
+}
+
+// Two boards in a V that closes from 80 to 20 degrees on a sheet hung in it:
+// they cross at the apex.
+HardScene Armpit() {
+  const TriangleMesh board =
+      Shifted(BoxMesh(Vector3d(0.02, 0.2, 0.2)), Vector3d(0, 0.18, 0));
+  HardScene scene =
+      SceneOf(Shifted(Upright(SheetMesh(8, 0.2)), Vector3d(0, 0.18, 0)), {});
+  const auto open = [board](double degrees) {
+    const double angle = 0.5 * degrees * EIGEN_PI / 180;
+    return Joined(Turned(board, Turn(angle, Vector3d::UnitZ())),
+                  Turned(board, Turn(-angle, Vector3d::UnitZ())));
+  };
+  scene.body = open(80);
+  scene.frames = 60;
+  scene.body_at = [open](int frame) {
+    return open(80 - std::min(frame, 40) * 1.5).vertices;
+  };
+  return scene;
+}
+
+HardScene AllInContact() {
+  return SceneOf(Shifted(SheetMesh(10, 0.2), Vector3d(0, 0.152, 0)),
+                 BoxMesh(Vector3d::Constant(0.15)));
+}
+
+// A sheet whose middle vertex is exactly above an edge or a corner.
+HardScene OverTurnedCube(const Matrix3d& turn) {
+  const TriangleMesh cube = Turned(BoxMesh(Vector3d::Constant(0.1)), turn);
+  const double top = cube.vertices.row(1).maxCoeff();
+  return SceneOf(Shifted(SheetMesh(10, 0.35), Vector3d(0, top + 0.003, 0)),
+                 cube);
+}
+
+HardScene CubeEdge() {
+  return OverTurnedCube(Turn(EIGEN_PI / 4, Vector3d::UnitZ()));
+}
+
+HardScene CubeCorner() {
+  const Vector3d up = Vector3d::UnitY();
+  return OverTurnedCube(Eigen::Quaterniond::FromTwoVectors(Vector3d::Ones(), up)
+                            .toRotationMatrix());
+}
+
+// An octahedron's tip.
+HardScene BodyVertex() {
+  return SceneOf(Shifted(SheetMesh(10, 0.35), Vector3d(0, 0.123, 0)),
+                 BallMesh(0.12, 0));
+}
+
+// A blade of 2 mm whose faces are 20 m long.
+HardScene SliverFace() {
+  return SceneOf(Shifted(SheetMesh(10, 0.3), Vector3d(0.01, 0.053, 0)),
+                 BoxMesh(Vector3d(0.001, 0.05, 10)));
+}
+
+HardScene SelfIntersecting() {
+  const TriangleMesh ball = BallMesh(0.12);
+  return SceneOf(Shifted(SheetMesh(12, 0.35), Vector3d(0, 0.125, 0)),
+                 Joined(Shifted(ball, Vector3d(-0.08, 0, 0)),
+                        Shifted(ball, Vector3d(0.08, 0.01, 0.01))));
+}
+
+// 30 m/s onto a plate of 4 mm, half a metre a step.
+HardScene Tunnelling() {
+  HardScene scene = SceneOf(Shifted(SheetMesh(8, 0.2), Vector3d(0, 1.1, 0)),
+                            BoxMesh(Vector3d(0.4, 0.002, 0.4)));
+  scene.options.step.substeps = 1;
+  scene.start = {
+      scene.garment.placed,
+      Vector3d(0, -30, 0).replicate(1, scene.garment.num_vertices())};
+  scene.frames = 10;
+  scene.misplaced = [](const Points& cloth, const Points&) {
+    return static_cast<int>((cloth.row(1).array() < 0).count());
+  };
+  return scene;
+}
+
+// The ball is dragged to and fro by 5 cm and turned.
+HardScene Friction(double mu) {
+  HardScene scene = SheetOverBall();
+  scene.options.contact.friction = mu;
+  scene.frames = 60;
+  const TriangleMesh ball = scene.body;
+  scene.body_at = [ball](int frame) {
+    const double t = frame / 60.0;
+    const double s = std::sin(2 * EIGEN_PI * t);
+    return Shifted(Turned(ball, Turn(0.5 * s * s, Vector3d(0, 1, 1))),
+                   Vector3d(0.05 * s * s, 0, 0))
+        .vertices;
+  };
+  return scene;
+}
+
+HardScene OnSlope(double angle, double mu) {
+  const Matrix3d turn = Turn(angle, Vector3d::UnitZ());
+  HardScene scene =
+      SceneOf(Turned(Shifted(SheetMesh(6, 0.2), Vector3d(0, 0.052, 0)), turn),
+              Turned(BoxMesh(Vector3d(0.5, 0.05, 0.5)), turn));
+  scene.options.contact.friction = mu;
+  return scene;
+}
+
+// A table shaken sideways with twice the acceleration that friction can hand
+// on: it sticks and slides twice a period.
+HardScene StickSlip() {
+  HardScene scene = OnSlope(0, 0.3);
+  const Points table = scene.body.vertices;
+  scene.frames = 120;
+  scene.body_at = [table](int frame) {
+    constexpr double kOmega = 4 * EIGEN_PI, kGravity = 9.8;
+    const double a = 2 * 0.3 * kGravity / (kOmega * kOmega);
+    const double t = frame / 60.0;
+    return Points(table.colwise() +
+                  Vector3d(a * (std::cos(kOmega * t) - 1), 0, 0));
+  };
+  return scene;
+}
+
+HardScene Resting() {
+  HardScene scene = OnSlope(0.2, 0.5);
+  scene.frames = 510;  // four steps each
+  scene.grace = 10;
+  scene.limits.creep = 1e-6;
+  return scene;
+}
+
+}  // namespace
+
+void AddContactCases(std::vector<HardCase>* cases) {
+  const auto add = [&](const char* name,
+                       const char* shows,
+                       std::function<HardScene()> make) {
+    cases->push_back({std::string("contact/") + name, shows, std::move(make)});
+  };
+  add("start_inside", "cloth that starts 3 cm inside the body", StartInside);
+  add("squeezed", "cloth between boards that leave it no room", Squeezed);
+  add("armpit", "cloth in a V that closes on it", Armpit);
+  add("all_in_contact", "every vertex in contact", AllInContact);
+  add("cube_edge", "a vertex exactly above an edge", CubeEdge);
+  add("cube_corner", "a vertex exactly above a corner", CubeCorner);
+  add("body_vertex",
+      "a vertex exactly above the tip of an octahedron",
+      BodyVertex);
+  add("sliver_face", "a blade of 2 mm with faces of aspect 10,000", SliverFace);
+  add("self_intersecting", "a body that crosses itself", SelfIntersecting);
+  add("tunnelling", "30 m/s onto a plate of 4 mm", Tunnelling);
+  add("mu_0", "no friction", [] { return Friction(0); });
+  add("mu_0.3", "friction 0.3", [] { return Friction(0.3); });
+  add("mu_1", "friction 1", [] { return Friction(1); });
+  add("mu_5", "friction 5", [] { return Friction(5); });
+  add("stick_slip", "sticking and sliding in turn", StickSlip);
+  add("zero_slip", "a slope at exactly the angle of friction", [] {
+    return OnSlope(std::atan(0.3), 0.3);
+  });
+  add("resting", "2,000 steps at rest on a slope without creep", Resting);
+}
+
+}  // namespace invsim

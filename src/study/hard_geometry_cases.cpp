@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// Hard scenes: meshes that are badly made, tiny, large or far away.
+
+#include <algorithm>
+#include <cmath>
+
+#include "hard_cases.h"
+#include "invsim/study/cube_toy.h"
+
+namespace invsim {
+namespace {
+
+// A line of the grid a ten-thousandth of a cell from its neighbour.
+HardScene Slivers() {
+  const double cell = 0.03;
+  std::vector<double> even, uneven;
+  for (int i = -5; i <= 5; ++i) even.push_back(cell * i);
+  uneven = even;
+  uneven.push_back(cell + 1e-4 * cell);
+  std::sort(uneven.begin(), uneven.end());
+  HardScene scene = SceneOf(
+      Shifted(GridMesh(even, uneven), Vector3d(0, 0.123, 0)), BallMesh(0.12));
+  scene.frames = 3;
+  return scene;
+}
+
+HardScene OneTriangle() {
+  TriangleMesh cloth;
+  cloth.vertices.resize(3, 3);
+  cloth.vertices << 0.03, -0.03, -0.03,  //
+      0.13, 0.13, 0.13,                  //
+      0.01, 0.04, -0.04;
+  cloth.faces = Vector3d(0, 2, 1).cast<int>();
+  return SceneOf(cloth, BallMesh(0.12));
+}
+
+// A ring of tube: cloth without a boundary.
+TriangleMesh Ring(double radius, double tube, int around, int across) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, around * across);
+  mesh.faces.resize(3, 2 * around * across);
+  const auto at = [&](int i, int j) {
+    return (i % around) * across + j % across;
+  };
+  int f = 0;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double a = 2 * EIGEN_PI * i / around, b = 2 * EIGEN_PI * j / across;
+      const double r = radius + tube * std::cos(b);
+      mesh.vertices.col(at(i, j)) =
+          Vector3d(r * std::cos(a), tube * std::sin(b), r * std::sin(a));
+      mesh.faces.col(f++) << at(i, j), at(i, j + 1), at(i + 1, j);
+      mesh.faces.col(f++) << at(i + 1, j), at(i, j + 1), at(i + 1, j + 1);
+    }
+  return mesh;
+}
+
+HardScene ClosedTube() {
+  return SceneOf(Shifted(Ring(0.07, 0.025, 18, 8), Vector3d(0, 0.13, 0)),
+                 BallMesh(0.12));
+}
+
+HardScene TwoPieces() {
+  const TriangleMesh piece = SheetMesh(6, 0.15);
+  return SceneOf(Joined(Shifted(piece, Vector3d(-0.09, 0.123, 0)),
+                        Shifted(piece, Vector3d(0.09, 0.123, 0))),
+                 BallMesh(0.12));
+}
+
+HardScene ManyVertices() {
+  HardScene scene = SheetOverBall(223);  // 50,176 vertices
+  scene.frames = 1;
+  scene.options.step.substeps = 2;
+  scene.differentiable = false;
+  return scene;
+}
+
+HardScene FarAway() {
+  const Vector3d there(1e4, 0, -1e4);
+  HardScene scene = SheetOverBall();
+  scene.garment.placed.colwise() += there;
+  scene.body = Shifted(scene.body, there);
+  // Positions hold 2e-12 m there, and differences at best the root of it.
+  scene.limits.derivative = 1e-3;
+  return scene;
+}
+
+HardScene Millimetres() {
+  const BodyModel cube = CubeBody();
+  Garment sheet = SheetAbove(cube.Vertices({}), 8, 0.003);
+  sheet.placed *= 1000;
+  sheet.rest *= 1000;
+  CheckGarmentFits(sheet, cube, ShapeVector::Zero(), "sheet");
+  HardScene scene = SheetOverBall();
+  scene.garment = sheet;
+  return scene;
+}
+
+}  // namespace
+
+void AddGeometryCases(std::vector<HardCase>* cases) {
+  const auto add = [&](const char* name,
+                       const char* shows,
+                       HardScene (*make)()) -> HardCase& {
+    return cases->emplace_back(
+        HardCase{std::string("geometry/") + name, shows, make});
+  };
+  add("slivers", "cloth triangles of aspect 10,000", Slivers).border =
+      "bending across a sliver is ten orders stiffer than elsewhere: rounding "
+      "alone is above the contact tolerance";
+  add("one_triangle", "cloth of a single face", OneTriangle);
+  add("closed_tube", "cloth without a boundary", ClosedTube);
+  add("two_pieces", "cloth in two parts that do not touch", TwoPieces);
+  add("50k_vertices", "a sheet of 50,176 vertices", ManyVertices);
+  add("10_km_away", "all of it 14 km from the origin", FarAway);
+  add("millimetres", "a garment in millimetres", Millimetres).refused = true;
+}
+
+}  // namespace invsim

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// What hard scenes are made of.
+
+#include <Eigen/Geometry>
+#include <utility>
+
+#include "hard_cases.h"
+#include "invsim/base/config.h"
+#include "invsim/base/options.h"
+#include "invsim/geometry/subdivision.h"
+
+namespace invsim {
+
+TriangleMesh BallMesh(double radius, int levels) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, 6);
+  mesh.vertices << 1, -1, 0, 0, 0, 0,  //
+      0, 0, 1, -1, 0, 0,               //
+      0, 0, 0, 0, 1, -1;
+  mesh.faces.resize(3, 8);
+  mesh.faces << 0, 2, 1, 3, 2, 1, 3, 0,  //
+      2, 1, 3, 0, 0, 2, 1, 3,            //
+      4, 4, 4, 4, 5, 5, 5, 5;
+  for (int level = 0; level < levels; ++level) {
+    mesh = SubdivideMidpoint(mesh).mesh;
+    mesh.vertices.colwise().normalize();
+  }
+  mesh.vertices *= radius;
+  return mesh;
+}
+
+TriangleMesh BoxMesh(const Vector3d& half) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, 8);
+  for (int k = 0; k < 8; ++k)
+    mesh.vertices.col(k) = half.cwiseProduct(
+        Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+  mesh.faces.resize(3, 12);
+  mesh.faces << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
+      3, 2, 5, 7, 1, 5, 7, 6, 6, 4, 3, 7,            //
+      1, 3, 7, 6, 5, 4, 3, 7, 2, 6, 7, 5;
+  return mesh;
+}
+
+TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, a.vertices.cols() + b.vertices.cols());
+  mesh.vertices << a.vertices, b.vertices;
+  mesh.faces.resize(3, a.faces.cols() + b.faces.cols());
+  mesh.faces << a.faces,
+      (b.faces.array() + static_cast<int>(a.vertices.cols())).matrix();
+  return mesh;
+}
+
+TriangleMesh Shifted(TriangleMesh mesh, const Vector3d& by) {
+  mesh.vertices.colwise() += by;
+  return mesh;
+}
+
+TriangleMesh Turned(TriangleMesh mesh, const Matrix3d& rotation) {
+  mesh.vertices = rotation * mesh.vertices;
+  return mesh;
+}
+
+TriangleMesh GridMesh(const std::vector<double>& x,
+                      const std::vector<double>& z) {
+  const int nx = static_cast<int>(x.size()), nz = static_cast<int>(z.size());
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, nx * nz);
+  for (int j = 0; j < nz; ++j)
+    for (int i = 0; i < nx; ++i)
+      mesh.vertices.col(j * nx + i) = Vector3d(x[i], 0, z[j]);
+  mesh.faces.resize(3, 2 * (nx - 1) * (nz - 1));
+  int f = 0;
+  for (int j = 0; j + 1 < nz; ++j)
+    for (int i = 0; i + 1 < nx; ++i) {
+      const int a = j * nx + i, b = a + 1, c = a + nx, d = c + 1;
+      const bool even = (i + j) % 2 == 0;
+      mesh.faces.col(f++) << a, (even ? c : d), b;
+      mesh.faces.col(f++) << (even ? b : a), c, d;
+    }
+  return mesh;
+}
+
+TriangleMesh SheetMesh(int cells, double side) {
+  std::vector<double> lines(cells + 1);
+  for (int i = 0; i <= cells; ++i)
+    lines[i] = side * (static_cast<double>(i) / cells - 0.5);
+  return GridMesh(lines, lines);
+}
+
+TriangleMesh Upright(TriangleMesh sheet) {
+  return Turned(
+      std::move(sheet),
+      Eigen::AngleAxisd(-EIGEN_PI / 2, Vector3d::UnitZ()).toRotationMatrix());
+}
+
+Garment AsGarment(const TriangleMesh& mesh) {
+  return GarmentFromRestMesh(mesh.vertices, mesh.faces);
+}
+
+HardScene SceneOf(const TriangleMesh& cloth, TriangleMesh body) {
+  HardScene scene;
+  scene.body = std::move(body);
+  scene.garment = AsGarment(cloth);
+  scene.material = {
+      "cloth", 0.2, IsotropicStretch{200, 0.3}, IsotropicBending{1e-5}};
+  return scene;
+}
+
+HardScene SheetOverBall(int cells, double side) {
+  constexpr double kRadius = 0.12;
+  return SceneOf(
+      Shifted(SheetMesh(cells, side), Vector3d(0, kRadius + 0.003, 0)),
+      BallMesh(kRadius));
+}
+
+void SetOption(HardScene* scene,
+               const std::string& key,
+               const std::string& value) {
+  OptionTable table;
+  Describe(&table, &scene->options);
+  Config config;
+  config.Set(key, value, "hard scene");
+  table.Read(config);
+}
+
+}  // namespace invsim

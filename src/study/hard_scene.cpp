@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/study/hard_scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "hard_cases.h"
+#include "invsim/base/error.h"
+#include "invsim/base/stopwatch.h"
+#include "invsim/sim/penetration.h"
+#include "invsim/sim/sensitivity.h"
+#include "invsim/study/gradient_check.h"
+
+namespace invsim {
+namespace {
+
+// For differences to mean anything; see CheckFrameGradient.
+constexpr double kTightTolerance = 1e-10;
+
+Simulator MakeSimulator(const HardScene& scene, double tolerance) {
+  SimulatorSetup setup =
+      MakeSetup(scene.options, scene.body, scene.garment, scene.material);
+  setup.pins = scene.pins;
+  if (tolerance > 0) setup.step.friction.tolerance = tolerance;
+  return Simulator(std::move(setup));
+}
+
+Points BodyAt(const HardScene& scene, int frame) {
+  return scene.body_at ? scene.body_at(frame) : scene.body.vertices;
+}
+
+// The work of the contact forces on the cloth in a frame, J: what they gave
+// it, and all that went either way.
+struct Work {
+  double net = 0;
+  double turnover = 0;
+};
+
+Work ContactWork(const FrameRecord& record) {
+  Work work;
+  for (const SubstepRecord& sub : record.substeps) {
+    const LinearizationRecord& lin = sub.linearizations.back();
+    for (size_t k = 0; k < sub.contacts.size(); ++k) {
+      const double w =
+          sub.dt * lin.forces[k].dot(sub.contacts[k].Gather(lin.v));
+      work.net += w;
+      work.turnover += std::abs(w);
+    }
+  }
+  return work;
+}
+
+// Keeps the account of energy from frame to frame.
+class EnergyAccount {
+ public:
+  EnergyAccount(const Simulator& simulator, const ClothState& state)
+      : simulator_(simulator),
+        first_(Total(state)),
+        // A cloth lifted by a millimetre is no drift.
+        turnover_(9.81 * simulator.mass().sum() * 1e-3) {}
+
+  void Add(const FrameRecord& record, const ClothState& state) {
+    const Work work = ContactWork(record);
+    net_ += work.net;
+    turnover_ += work.turnover;
+    const double kinetic = simulator_.KineticEnergy(state);
+    const double gain = Total(state) - first_ - net_;
+    const double scale =
+        turnover_ + std::max(kinetic, std::abs(first_ - Total(state)));
+    worst_ = std::max(worst_, gain / scale);
+  }
+  double worst() const { return worst_; }
+
+ private:
+  double Total(const ClothState& state) const {
+    return simulator_.PotentialEnergy(state) + simulator_.KineticEnergy(state);
+  }
+
+  const Simulator& simulator_;
+  double first_, turnover_;
+  double net_ = 0, worst_ = 0;
+};
+
+// Three shifts, three turns and a swelling about the middle.
+std::vector<Points> RigidDirections(const Points& body) {
+  const Vector3d middle = body.rowwise().mean();
+  std::vector<Points> directions;
+  for (int k = 0; k < 3; ++k)
+    directions.push_back(Vector3d::Unit(k).replicate(1, body.cols()));
+  for (int k = 0; k < 3; ++k) {
+    Points turn(3, body.cols());
+    for (Eigen::Index i = 0; i < body.cols(); ++i)
+      turn.col(i) = Vector3d::Unit(k).cross(body.col(i) - middle);
+    directions.push_back(std::move(turn));
+  }
+  directions.push_back(body.colwise() - middle);
+  return directions;
+}
+
+// The derivative of the frame from `previous` to `at`, cloth at `start`.
+void CheckDerivative(const HardScene& scene,
+                     const Points& previous,
+                     const Points& at,
+                     const ClothState& start,
+                     HardOutcome* outcome) {
+  const std::vector<Points> directions =
+      scene.directions.empty() ? RigidDirections(at) : scene.directions;
+  MovableBody body;
+  body.at = at;
+  body.parameters = static_cast<int>(directions.size());
+  body.moved = [&](int k, double step) {
+    return Points(at + step * directions[k]);
+  };
+  body.jacobian = [&](const std::vector<int>& vertices) {
+    Columns columns(3 * vertices.size(), directions.size());
+    for (size_t k = 0; k < directions.size(); ++k)
+      for (size_t i = 0; i < vertices.size(); ++i)
+        columns.col(k).segment<3>(3 * i) = directions[k].col(vertices[i]);
+    return columns;
+  };
+  Simulator simulator = MakeSimulator(scene, kTightTolerance);
+  simulator.FindInside(previous, start);
+  GradientCheckOptions options;
+  options.steps = {1e-5, 1e-6, 1e-7, 1e-8};
+  options.floor = 1e-3;
+  try {
+    const GradientCheck check = CheckFrameGradient(options,
+                                                   body,
+                                                   previous,
+                                                   1 / scene.frames_per_second,
+                                                   start,
+                                                   &simulator);
+    outcome->switched = check.switched;
+    outcome->columns = static_cast<int>(check.columns.size()) - check.switched;
+    if (outcome->columns > 0) outcome->derivative = check.worst;
+  } catch (const InputError& error) {
+    outcome->broken.push_back(error.what());
+  }
+}
+
+std::string Text(auto... parts) {
+  std::ostringstream text;
+  text.precision(3);
+  (text << ... << parts);
+  return text.str();
+}
+
+// Holds the outcome against the limits.
+void Judge(const HardScene& scene, HardOutcome* o) {
+  const HardLimits& limits = scene.limits;
+  const auto fail = [&](const std::string& text) { o->broken.push_back(text); };
+  if (o->step.failed > 0 || o->frames < scene.frames)
+    fail(Text("not finite in frame ", o->frames + 1, " of ", scene.frames));
+  if (o->step.missed > limits.missed)
+    fail(Text(o->step.missed,
+              " of ",
+              o->step.substeps,
+              " steps above the contact tolerance"));
+  const double tolerance = scene.options.step.friction.tolerance;
+  if (o->step.missed == 0 && o->step.worst_residual > tolerance)
+    fail(Text("residual ", o->step.worst_residual, " not counted"));
+  if (!(o->penetration <= limits.penetration))
+    fail(Text("penetration ", 1e3 * o->penetration, " mm"));
+  if (!(o->energy <= limits.energy))
+    fail(Text("energy gained from nowhere: ", o->energy));
+  if (!(o->creep <= limits.creep)) fail(Text("creep of ", o->creep, " m"));
+  if (o->misplaced > 0) fail(Text(o->misplaced, " vertices misplaced"));
+  if (o->derivative > limits.derivative)
+    fail(Text("derivative off by ", o->derivative));
+}
+
+// Follows one scene through its frames.
+class Run {
+ public:
+  Run(const HardScene& scene, HardOutcome* outcome)
+      : scene_(scene),
+        outcome_(*outcome),
+        simulator_(MakeSimulator(scene, 0)),
+        body_(BodyAt(scene, 0)),
+        state_(Start(scene)),
+        energy_(simulator_, state_) {
+    if (scene.body.faces.cols() > 0) surface_.emplace(body_, scene.body.faces);
+  }
+
+  void Frames() {
+    for (int frame = 1; frame <= scene_.frames; ++frame)
+      if (!Frame(frame)) return;
+  }
+
+  const Points& previous() const { return previous_; }
+  const Points& body() const { return body_; }
+  const ClothState& before() const { return before_; }  // the last frame
+
+ private:
+  static ClothState Start(const HardScene& scene) {
+    if (scene.start.x.cols() > 0) return scene.start;
+    return {scene.garment.placed,
+            Points::Zero(3, scene.garment.num_vertices())};
+  }
+
+  bool Frame(int frame) {
+    previous_ = body_;
+    before_ = state_;
+    Points next = BodyAt(scene_, frame);
+    simulator_.FindInside(body_, state_);
+    FrameRecord record;
+    if (!simulator_.Advance(body_,
+                            next,
+                            1 / scene_.frames_per_second,
+                            &state_,
+                            &outcome_.step,
+                            &record))
+      return false;
+    body_ = std::move(next);
+    ++outcome_.frames;
+    energy_.Add(record, state_);
+    Measure(frame);
+    return true;
+  }
+
+  void Measure(int frame) {
+    outcome_.energy = energy_.worst();
+    outcome_.speed = std::max(
+        outcome_.speed, std::sqrt(state_.v.colwise().squaredNorm().maxCoeff()));
+    if (frame == scene_.grace || (frame == 1 && scene_.grace == 0))
+      resting_ = state_.x;
+    if (frame < scene_.grace) return;
+    outcome_.creep = std::max(
+        outcome_.creep, (state_.x - resting_).colwise().norm().maxCoeff());
+    if (surface_) {
+      surface_->Update(body_);
+      const Penetration p = MeasurePenetration(*surface_, state_.x);
+      outcome_.penetration = std::max(outcome_.penetration, p.deepest);
+      outcome_.overlap = std::max(outcome_.overlap, p.deepest_overlap);
+    }
+    if (scene_.misplaced)
+      outcome_.misplaced =
+          std::max(outcome_.misplaced, scene_.misplaced(state_.x, body_));
+  }
+
+  const HardScene& scene_;
+  HardOutcome& outcome_;
+  Simulator simulator_;
+  std::optional<SurfaceIndex> surface_;
+  Points body_, previous_;
+  ClothState state_, before_;
+  EnergyAccount energy_;
+  Points resting_;
+};
+
+}  // namespace
+
+HardOutcome RunHardScene(const HardScene& scene, bool derivative) {
+  const Stopwatch watch;
+  HardOutcome outcome;
+  Run run(scene, &outcome);
+  run.Frames();
+  if (derivative && scene.differentiable && outcome.frames == scene.frames &&
+      scene.body.faces.cols() > 0)
+    CheckDerivative(scene, run.previous(), run.body(), run.before(), &outcome);
+  Judge(scene, &outcome);
+  outcome.seconds = watch.seconds();
+  return outcome;
+}
+
+HardOutcome RunHardCase(const HardCase& hard, bool derivative) {
+  std::optional<HardScene> scene;
+  try {
+    scene.emplace(hard.make());
+  } catch (const InputError& error) {
+    HardOutcome outcome;
+    outcome.refused = true;
+    outcome.refusal = error.what();
+    if (!hard.refused) outcome.broken.push_back(error.what());
+    return outcome;
+  }
+  HardOutcome outcome = RunHardScene(*scene, derivative);
+  if (hard.refused) outcome.broken.push_back("taken, though bad input");
+  return outcome;
+}
+
+const std::vector<HardCase>& HardCases() {
+  static const std::vector<HardCase> cases = [] {
+    std::vector<HardCase> all;
+    AddGeometryCases(&all);
+    AddMaterialCases(&all);
+    AddTimeCases(&all);
+    AddContactCases(&all);
+    AddParameterCases(&all);
+    return all;
+  }();
+  return cases;
+}
+
+}  // namespace invsim

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/study/hard_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <set>
+
+namespace invsim {
+namespace {
+
+std::string TestName(const testing::TestParamInfo<HardCase>& info) {
+  std::string name = info.param.name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+class HardSceneTest : public testing::TestWithParam<HardCase> {};
+
+TEST_P(HardSceneTest, Holds) {
+  const HardCase& hard = GetParam();
+  const HardOutcome outcome = RunHardCase(hard);
+  EXPECT_EQ(outcome.refused, hard.refused) << outcome.refusal;
+  if (hard.border.empty()) {
+    for (const std::string& broken : outcome.broken)
+      ADD_FAILURE() << hard.name << ": " << broken;
+    return;
+  }
+  // Beyond a known border: finite, and it says so.
+  EXPECT_EQ(outcome.step.failed, 0);
+  EXPECT_FALSE(outcome.broken.empty()) << "the border is no more: remove it";
+  EXPECT_TRUE(std::isfinite(outcome.speed));
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery,
+                         HardSceneTest,
+                         testing::ValuesIn(HardCases()),
+                         TestName);
+
+TEST(HardCases, NamesAreUnique) {
+  std::set<std::string> names;
+  for (const HardCase& hard : HardCases())
+    EXPECT_TRUE(names.insert(hard.name).second) << hard.name;
+}
+
+// The measures themselves can fail: a scene that breaks each limit is caught.
+
+HardScene Scene(const char* name) {
+  for (const HardCase& hard : HardCases())
+    if (hard.name == name) return hard.make();
+  throw std::logic_error(name);
+}
+
+TEST(RunHardScene, SeesPenetration) {
+  HardScene scene = Scene("contact/start_inside");
+  scene.grace = 0;
+  scene.frames = 1;
+  const HardOutcome outcome = RunHardScene(scene, false);
+  EXPECT_GT(outcome.penetration, 1e-3);
+  ASSERT_EQ(outcome.broken.size(), 1u);
+  EXPECT_NE(outcome.broken[0].find("penetration"), std::string::npos);
+}
+
+TEST(RunHardScene, SeesStepsThatMissTheTolerance) {
+  HardScene scene = Scene("contact/mu_1");
+  scene.frames = 10;
+  scene.options.step.friction.admm_iterations = 1;
+  scene.options.step.friction.newton_iterations = 1;
+  scene.options.step.friction.retries = 0;
+  scene.options.step.max_halvings = 0;
+  const HardOutcome outcome = RunHardScene(scene, false);
+  EXPECT_GT(outcome.step.missed, 0);
+  EXPECT_FALSE(outcome.broken.empty());
+}
+
+TEST(RunHardScene, SeesEnergyFromNowhere) {
+  // Negative damping: the air drags the cloth along without being a body.
+  HardScene scene = Scene("material/undamped");
+  scene.frames = 20;
+  scene.options.effects.push_back("air_drag");
+  OptionTable table;
+  Describe(&table, &scene.options);
+  Config config;
+  config.Set("effects.air_drag.wind", "[0, 0, 20]", "test");
+  table.Read(config);
+  const HardOutcome outcome = RunHardScene(scene, false);
+  EXPECT_GT(outcome.energy, 0.1);
+  EXPECT_FALSE(outcome.broken.empty());
+}
+
+TEST(RunHardScene, SeesCreep) {
+  HardScene scene = Scene("contact/resting");
+  scene.options.contact.friction = 0.1;
+  scene.frames = 20;
+  const HardOutcome outcome = RunHardScene(scene, false);
+  EXPECT_GT(outcome.creep, 1e-3);
+  EXPECT_FALSE(outcome.broken.empty());
+}
+
+TEST(RunHardScene, SeesVerticesOnTheWrongSide) {
+  HardScene scene = Scene("contact/tunnelling");
+  scene.body.faces.resize(3, 0);
+  const HardOutcome outcome = RunHardScene(scene, false);
+  EXPECT_EQ(outcome.misplaced, scene.garment.num_vertices());
+}
+
+}  // namespace
+}  // namespace invsim

@@ -259,8 +259,9 @@ HardOutcome RunHardScene(const HardScene& scene, bool derivative) {
   HardOutcome outcome;
   Run run(scene, &outcome);
   run.Frames();
+  // A step that is not solved has no derivative.
   if (derivative && scene.differentiable && outcome.frames == scene.frames &&
-      scene.body.faces.cols() > 0)
+      outcome.step.missed == 0 && scene.body.faces.cols() > 0)
     CheckDerivative(scene, run.previous(), run.body(), run.before(), &outcome);
   Judge(scene, &outcome);
   outcome.seconds = watch.seconds();

@@ -46,9 +46,9 @@ HardScene Dressed(const BodyParameters& from, const BodyParameters& to) {
     p.translation = (1 - s) * from.translation + s * to.translation;
     return body.Vertices(p);
   };
-  // Height, weight, the root's turns, both shoulders, a shift.
+  // Height, a turn of the root, a shoulder, a shift.
   const std::shared_ptr<const PosedBody> posed = body.Pose(to);
-  for (int k : {0, 1, 10, 11, 12, 58, 60, 63, 83}) {
+  for (int k : {0, 11, 60, 83}) {
     Points direction = posed->Product(VectorXd::Unit(kNumBodyParameters, k));
     // At 2 pi a rotation vector has but one direction left.
     if (direction.norm() > 1e-9)

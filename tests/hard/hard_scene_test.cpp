@@ -21,7 +21,7 @@ class HardSceneTest : public testing::TestWithParam<HardCase> {};
 
 TEST_P(HardSceneTest, Holds) {
   const HardCase& hard = GetParam();
-  const HardOutcome outcome = RunHardCase(hard);
+  const HardOutcome outcome = RunHardCase(hard, hard.border.empty());
   EXPECT_EQ(outcome.refused, hard.refused) << outcome.refusal;
   if (hard.border.empty()) {
     for (const std::string& broken : outcome.broken)

@@ -37,7 +37,7 @@ HardScene Dressed(const BodyParameters& from, const BodyParameters& to) {
   scene.material = {
       "jersey", 0.2, IsotropicStretch{200, 0.3}, IsotropicBending{1e-5}};
   scene.body = {body.Vertices(from), body.faces()};
-  scene.frames = kMoving + 10;
+  scene.frames = kMoving + 2;
   scene.body_at = [&body, from, to](int frame) {
     const double s = std::min(frame, kMoving) / static_cast<double>(kMoving);
     BodyParameters p;

@@ -12,6 +12,30 @@ Matrix3d Outer(const Vector3d& a, const Vector3d& b) {
   return a * b.transpose();
 }
 
+// The determinant of x^2 + y^2 in the Jordan algebra of the Lorentz cone, x =
+// (a0, a) and y = (b0, b), as a sum of terms none of which is negative:
+//
+//   (a0^2 - |a|^2)^2 + (b0^2 - |b|^2)^2
+//     + 2 (a0 b0 - s |a||b|)^2 + 2 (a0 |b| - s b0 |a|)^2
+//     + 8 |a0 b0| (|a||b| - s a.b),                      s the sign of a0 b0 .
+//
+// As a difference it would be lost in rounding where x^2 + y^2 is nearly on the
+// cone: that is wherever cloth hardly slides or hardly sticks.
+double DeterminantOfSquares(double a0,
+                            const Vector3d& a,
+                            double b0,
+                            const Vector3d& b) {
+  const double a1 = a.norm(), b1 = b.norm();
+  const double s = a0 * b0 < 0 ? -1 : 1;
+  const auto square = [](double x) { return x * x; };
+  // |a||b| - s a.b
+  const double angle =
+      a1 * b1 > 0 ? (b1 * a - s * a1 * b).squaredNorm() / (2 * a1 * b1) : 0;
+  return square((a0 - a1) * (a0 + a1)) + square((b0 - b1) * (b0 + b1)) +
+         2 * square(a0 * b0 - s * a1 * b1) + 2 * square(a0 * b1 - s * b0 * a1) +
+         8 * std::abs(a0 * b0) * angle;
+}
+
 }  // namespace
 
 ContactLinearization LinearizeAlartCurnier(const Vector3d& n,
@@ -76,8 +100,11 @@ Vector3d FischerBurmeister(const Vector3d& n,
   const double z0 = a0 * a0 + a.squaredNorm() + b0 * b0 + b.squaredNorm();
   const Vector3d z = 2 * (a0 * a + b0 * b);
   const double length = z.norm();
-  const double root_plus = std::sqrt(z0 + length);
-  const double root_minus = std::sqrt(std::max(0.0, z0 - length));
+  // Its eigenvalues are z0 +- |z_T|; their product is the determinant.
+  const double plus = z0 + length;
+  const double root_plus = std::sqrt(plus);
+  const double root_minus =
+      plus > 0 ? std::sqrt(DeterminantOfSquares(a0, a, b0, b) / plus) : 0;
   const Vector3d direction =
       length > 0 ? Vector3d(z / length) : Vector3d::Zero();
   const double phi_n = a0 + b0 - 0.5 * (root_plus + root_minus);

@@ -54,6 +54,39 @@ TEST_F(CoulombTest, BothFormsVanishExactlyAtSolutions) {
   }
 }
 
+// Near the cone's surface a difference of squares would leave the root of the
+// rounding, 1e-8, in place of the rounding itself.
+TEST_F(CoulombTest, FischerBurmeisterIsPreciseNearTheCone) {
+  for (const double mu : {0.05, 0.3, 1.0, 5.0}) {
+    for (const double small : {1e-3, 1e-6, 1e-9, 1e-12, 0.0}) {
+      for (int k = 0; k < 20; ++k) {
+        const Vector3d n = Normal();
+        const Vector3d t = n.cross(Random()).normalized();
+        // Slides ever slower; sticks ever nearer to sliding.
+        const Vector3d slides = FischerBurmeister(
+            n, mu, 0.7, Vector3d(n - mu * t), Vector3d(small * t));
+        const Vector3d sticks = FischerBurmeister(
+            n, mu, 0.7, Vector3d(n - mu * (1 - small) * t), Vector3d::Zero());
+        EXPECT_LT(slides.norm(), 1e-14 * (1 + mu)) << mu << " " << small;
+        EXPECT_LT(sticks.norm(), 1e-14 * (1 + mu)) << mu << " " << small;
+      }
+    }
+  }
+}
+
+// Where the law is broken a little, Phi is of that size.
+TEST_F(CoulombTest, FischerBurmeisterMeasuresSmallViolations) {
+  const Vector3d n = Normal(), t = n.unitOrthogonal();
+  for (const double mu : {0.3, 1.0}) {
+    for (const double small : {1e-4, 1e-8, 1e-12}) {
+      const Vector3d out = FischerBurmeister(
+          n, mu, 1, Vector3d(n + mu * (1 + small) * t), Vector3d::Zero());
+      EXPECT_GT(out.norm(), 0.1 * mu * small);
+      EXPECT_LT(out.norm(), 3 * mu * small + 1e-15);
+    }
+  }
+}
+
 TEST_F(CoulombTest, FischerBurmeisterSeesEveryViolation) {
   const Vector3d n = Normal();
   const Vector3d t = n.unitOrthogonal();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <set>
 
 #include "invsim/base/error.h"
 #include "invsim/base/names.h"
@@ -35,6 +36,8 @@ constexpr double kBlend = 0.04;
 constexpr double kLegBlend = 0.025;
 // How far under the skin the trunk's tube starts, metres.
 constexpr double kSunk = 0.03;
+// How often triangles that cross are drawn apart.
+constexpr int kUntanglingRounds = 20;
 
 // 0 below 0, 1 above 1, smooth between.
 double SmoothStep(double t) {
@@ -166,6 +169,7 @@ class Tailor {
   Garment Sew(const Vector3d& inside);
   void FairBoundary(TriangleMesh* mesh) const;
   void OntoSurface(TriangleMesh* mesh) const;
+  void KeepClear(TriangleMesh* mesh) const;
   void Check(const TriangleMesh& mesh) const;
   [[noreturn]] void Fail(const std::string& why) const {
     throw InputError("cannot make a " + name_ + " for this body: " + why);
@@ -208,7 +212,9 @@ double Tailor::Reach(const Vector3d& from, const Vector3d& direction) const {
 void Tailor::AddNeck(const UpperCut& cut) {
   const Vector3d neck = Joint(kNeck), shoulders = Middle(kLeftShoulder);
   const double torso = neck[1] - Middle(kLeftHip)[1];
-  const double width = cut.neck_width * std::abs(Joint(kLeftShoulder)[0]);
+  // Room for a neck that has grown by the ease.
+  const double width = cut.neck_width * std::abs(Joint(kLeftShoulder)[0]) +
+                       std::max(0.0, options_.ease - 0.01);
   const Vector3d up(0, 1, 0), front(0, 0, 1);
   // The side of the neck is where the shoulder line is `width` from the
   // middle; the other heights are counted from there.
@@ -380,11 +386,7 @@ Garment Tailor::Sew(const Vector3d& inside) {
   mesh = Remesh(PieceNearest(mesh, inside), options_.edge_length, remesh);
   FairBoundary(&mesh);
   OntoSurface(&mesh);
-  PushClear(mesh.faces,
-            skin_,
-            std::max(0.6 * options_.ease, kVertexClearance),
-            std::max(0.5 * options_.ease, kFaceClearance),
-            &mesh.vertices);
+  KeepClear(&mesh);
   Check(mesh);
   Garment garment = GarmentFromRestMesh(mesh.vertices, mesh.faces);
   garment.rest_angles_from_placed = false;
@@ -418,6 +420,35 @@ void Tailor::OntoSurface(TriangleMesh* mesh) const {
       mesh->vertices.col(v) -=
           std::clamp(move, -grid_.cell(), grid_.cell()) * g;
     }
+  }
+}
+
+// Off the skin, and faces off each other: where large triangles cross, at the
+// crotch and in armpits, their corners give way towards their neighbours.
+void Tailor::KeepClear(TriangleMesh* mesh) const {
+  for (int round = 0;; ++round) {
+    PushClear(mesh->faces,
+              skin_,
+              std::max(0.6 * options_.ease, kVertexClearance),
+              std::max(0.5 * options_.ease, kFaceClearance),
+              &mesh->vertices);
+    const auto crossings = SelfIntersections(mesh->vertices, mesh->faces);
+    if (crossings.empty() || round == kUntanglingRounds) return;
+    std::set<int> corners;
+    for (const auto& pair : crossings)
+      for (const int f : pair)
+        for (int c = 0; c < 3; ++c) corners.insert(mesh->faces(c, f));
+    Points sum = Points::Zero(3, mesh->vertices.cols());
+    VectorXd count = VectorXd::Zero(mesh->vertices.cols());
+    for (const Edge& e : Edges(mesh->faces)) {
+      sum.col(e.a) += mesh->vertices.col(e.b);
+      sum.col(e.b) += mesh->vertices.col(e.a);
+      count[e.a] += 1;
+      count[e.b] += 1;
+    }
+    for (const int v : corners)
+      mesh->vertices.col(v) +=
+          0.5 * (sum.col(v) / count[v] - mesh->vertices.col(v));
   }
 }
 
@@ -460,7 +491,7 @@ void CheckOptions(const AuthoredGarmentOptions& options) {
         throw UsageError(text);
       };
   check("edge length", options.edge_length, 0.008, 0.08);
-  check("ease", options.ease, 0.004, 0.05);
+  check("ease", options.ease, 0.004, 0.03);
 }
 
 }  // namespace

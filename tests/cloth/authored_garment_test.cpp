@@ -132,6 +132,18 @@ TEST_P(AuthoredGarmentTest, IsSound) {
   ExpectLengthOfItsName(GetParam(), g);
 }
 
+// The largest triangles and the least and most ease, which leave the least
+// room at crotch and armpits.
+TEST_P(AuthoredGarmentTest, IsOneUncrossedPieceAtTheLimits) {
+  for (const double ease : {0.004, 0.03}) {
+    AuthoredGarmentOptions options;
+    options.edge_length = 0.06;
+    options.ease = ease;
+    ExpectOneUncrossedPiece(GetParam(),
+                            AuthoredGarment(GetParam(), Body(), options));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All,
                          AuthoredGarmentTest,
                          ::testing::ValuesIn(AuthoredGarmentNames()));

@@ -28,7 +28,7 @@ namespace invsim {
 
 struct AuthoredGarmentOptions {
   double edge_length = 0.02;  // metres; 0.008 to 0.08
-  // Least distance from the skin aimed at, metres; 0.004 to 0.05. Tubes are
+  // Least distance from the skin aimed at, metres; 0.004 to 0.03. Tubes are
   // wider by what the cut of the garment wants.
   double ease = 0.01;
 };

@@ -98,9 +98,10 @@ const Faces& BodyContactDetector::faces() const {
   return impl_->surface.faces();
 }
 
-// A face holds a local minimum if no face that shares a corner with it comes
-// closer. Faces that meet in the closest point are one minimum, whose
-// pseudo-normal is the angle-weighted sum of theirs.
+// The foot of a perpendicular on a face is a local minimum, and so is a point
+// on a face's border if no face that shares a corner with it comes closer.
+// Faces that meet in the closest point are one minimum, whose pseudo-normal is
+// the angle-weighted sum of theirs.
 void BodyContactDetector::Impl::Minima(const Vector3d& x,
                                        const std::vector<FacePoint>& near,
                                        std::vector<Minimum>* minima) const {
@@ -116,7 +117,7 @@ void BodyContactDetector::Impl::Minima(const Vector3d& x,
     return false;
   };
   for (const FacePoint& p : near) {
-    if (closer_neighbour(p)) continue;
+    if (p.feature != TriangleFeature::kFace && closer_neighbour(p)) continue;
     const Matrix3d corners = Corners(surface.vertices(), p.face);
     Vector3d normal = (corners.col(1) - corners.col(0))
                           .cross(corners.col(2) - corners.col(0));

@@ -70,7 +70,9 @@ class FitCommandTest : public ::testing::Test {
            " --set init.headings=2 --set init.anchors=1"
            " --set init.iterations=3 --set relaxation.settle_seconds=0.1"
            " --set relaxation.move_seconds=0.3"
-           " --set relaxation.hold_seconds=0.1 --set lm.iterations=2 " +
+           " --set relaxation.hold_seconds=0.1 --set lm.iterations=2"
+           // Of two steps none is to be refused as too long.
+           " --set lm.radius=1 " +
            more;
   }
   void ExpectRefused(const std::string& command,

@@ -97,6 +97,43 @@ TEST_F(BodyContactTest, TwoContactsBetweenTwoBodies) {
   for (const Contact& c : found.contacts) EXPECT_FALSE(c.exact());
 }
 
+// A block with a notch of 44 degrees along z, whose bottom is the z axis.
+TriangleMesh NotchedBlock() {
+  const Eigen::Matrix<double, 2, 7> outline{
+      {-0.1, 0.1, 0.1, 0.02, 0, -0.02, -0.1},
+      {-0.1, -0.1, 0.05, 0.05, 0, 0.05, 0.05}};
+  const int caps[5][3] = {
+      {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {4, 5, 6}, {4, 6, 0}};
+  TriangleMesh block;
+  block.vertices.resize(3, 14);
+  block.vertices.topRows<2>() << outline, outline;
+  block.vertices.row(2) << Eigen::RowVectorXd::Constant(7, -0.1),
+      Eigen::RowVectorXd::Constant(7, 0.1);
+  block.faces.resize(3, 24);
+  int f = 0;
+  for (int i = 0; i < 7; ++i) {
+    const int j = (i + 1) % 7;
+    block.faces.col(f++) << i, j, j + 7;
+    block.faces.col(f++) << i, j + 7, i + 7;
+  }
+  for (const auto& c : caps) {
+    block.faces.col(f++) << c[0], c[2], c[1];
+    block.faces.col(f++) << c[0] + 7, c[1] + 7, c[2] + 7;
+  }
+  return block;
+}
+
+// As in the crease of an armpit: walls that share an edge are two obstacles.
+TEST_F(BodyContactTest, BothWallsOfACreaseHold) {
+  const Found found = DetectAtRest(NotchedBlock(), {0.0005, 0.011, 0.003});
+  ASSERT_EQ(found.contacts.size(), 2u);
+  EXPECT_LT(found.contacts[0].normal[0] * found.contacts[1].normal[0], 0);
+  for (const BodyContact& source : found.sources) {
+    EXPECT_EQ(source.side, 1);
+    EXPECT_EQ(source.feature, TriangleFeature::kFace);
+  }
+}
+
 TEST_F(BodyContactTest, SqueezedBetweenOverlappingBodiesBothPushBack) {
   const TriangleMesh balls = TwoBalls(0.19);
   const Found found = DetectAtRest(balls, {0.095, 0, 0});

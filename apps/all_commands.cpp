@@ -18,6 +18,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeInspectCommand());
   commands.push_back(MakeListCommand());
   commands.push_back(MakeSimulateCommand());
+  commands.push_back(MakeSoakCommand());
   commands.push_back(MakeSweepCommand());
   commands.push_back(MakeSynthCommand());
   return commands;

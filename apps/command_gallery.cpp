@@ -12,14 +12,23 @@
 #include "invsim/base/interrupt.h"
 #include "invsim/base/progress.h"
 #include "invsim/report/gallery_report.h"
+#include "invsim/report/hard_map_report.h"
 #include "invsim/report/run_folder.h"
+#include "invsim/study/hard_map.h"
 #include "invsim/study/hard_scene.h"
 
 namespace invsim {
 namespace {
 
+std::vector<std::string> MapNames() {
+  std::vector<std::string> names = {"none"};
+  for (const HardMap& map : HardMaps()) names.push_back(map.name);
+  return names;
+}
+
 struct GalleryOptions {
   std::string only;
+  std::string map = "none";
   bool derivative = true;
 };
 
@@ -27,6 +36,11 @@ void Describe(OptionTable* table, GalleryOptions* o) {
   table->Add("only",
              &o->only,
              {.doc = "run the cases whose name has this in it; empty: all"});
+  table->Add("map",
+             &o->map,
+             {.doc = "instead of the cases: one scene over a grid of two of "
+                     "its figures, to where it breaks",
+              .choices = MapNames()});
   table->Add("derivative",
              &o->derivative,
              {.doc = "also hold the derivative of the last frame against "
@@ -41,6 +55,7 @@ class GalleryCommand : public Command {
   }
   void AddArguments(CLI::App* app, KeyFlags* flags) override {
     flags->Add("--only", "gallery.only", "cases with this in their name");
+    flags->Add("--map", "gallery.map", "a map of where a scene breaks");
     app->add_flag("--force", force_, "replace an earlier report in DIR");
   }
   void AddOptions(OptionTable* table) override {
@@ -50,6 +65,8 @@ class GalleryCommand : public Command {
 
  private:
   std::vector<const HardCase*> Chosen() const;
+  ExitCode RunCases(const CommandContext& context, RunFolder* folder);
+  ExitCode RunMap(const CommandContext& context, RunFolder* folder);
 
   GalleryOptions options_;
   bool force_ = false;
@@ -65,11 +82,9 @@ std::vector<const HardCase*> GalleryCommand::Chosen() const {
   return chosen;
 }
 
-ExitCode GalleryCommand::Run(const CommandContext& context) {
-  const InterruptGuard interrupt;
+ExitCode GalleryCommand::RunCases(const CommandContext& context,
+                                  RunFolder* folder) {
   const std::vector<const HardCase*> chosen = Chosen();
-  std::optional<RunFolder> folder;
-  if (!context.out.empty()) folder.emplace(context.out, force_);
   GalleryReport report;
   report.derivative = options_.derivative;
   {
@@ -84,12 +99,51 @@ ExitCode GalleryCommand::Run(const CommandContext& context) {
     }
   }
   if (folder) {
-    folder->Write("config.resolved.toml", ResolvedToml(*context.options));
     folder->Write("report.json", GalleryJson(report));
     folder->Write("report.html", GalleryHtml(report));
   }
   std::cout << (context.json ? GalleryJson(report) : GalleryText(report));
   return Holds(report) ? ExitCode::kOk : ExitCode::kFailed;
+}
+
+ExitCode GalleryCommand::RunMap(const CommandContext& context,
+                                RunFolder* folder) {
+  HardMapReport report;
+  for (const HardMap& map : HardMaps())
+    if (map.name == options_.map) report.map = map;
+  const int columns = static_cast<int>(report.map.x.size());
+  const int rows = static_cast<int>(report.map.y.size());
+  {
+    Progress progress(context.verbosity < 0 ? nullptr : &std::cerr,
+                      StyleFor(STDERR_FILENO),
+                      "cells",
+                      rows * columns);
+    for (int j = 0; j < rows; ++j) {
+      report.cells.emplace_back();
+      for (int i = 0; i < columns; ++i) {
+        if (InterruptRequested()) return ExitCode::kInterrupted;
+        report.cells.back().push_back(RunMapCell(report.map, i, j));
+        progress.Advance();
+      }
+    }
+  }
+  if (folder) {
+    folder->Write("report.json", HardMapJson(report));
+    folder->Write(options_.map + ".svg", HardMapSvg(report));
+  }
+  std::cout << (context.json ? HardMapJson(report) : HardMapText(report));
+  return ExitCode::kOk;
+}
+
+ExitCode GalleryCommand::Run(const CommandContext& context) {
+  const InterruptGuard interrupt;
+  std::optional<RunFolder> folder;
+  if (!context.out.empty()) {
+    folder.emplace(context.out, force_);
+    folder->Write("config.resolved.toml", ResolvedToml(*context.options));
+  }
+  RunFolder* out = folder ? &*folder : nullptr;
+  return options_.map == "none" ? RunCases(context, out) : RunMap(context, out);
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ Json JsonRow(const GalleryRow& row) {
   json["shows"] = row.hard.shows;
   json["result"] = Word(row);
   if (!row.hard.border.empty()) json["border"] = row.hard.border;
-  json["broken"] = o.broken;
+  json["broken"] = Json::array();
+  for (const Breach& broken : o.broken) json["broken"].push_back(broken.text);
   if (o.refused) {
     json["refusal"] = o.refusal;
     return json;
@@ -131,8 +132,8 @@ std::string GalleryText(const GalleryReport& report) {
   for (const GalleryRow& row : report.rows) text += TextRow(row);
   text += "\n" + GalleryVerdict(report) + "\n";
   for (const GalleryRow& row : report.rows) {
-    for (const std::string& broken : row.outcome.broken)
-      text += row.hard.name + ": " + broken + "\n";
+    for (const Breach& broken : row.outcome.broken)
+      text += row.hard.name + ": " + broken.text + "\n";
     if (row.known())
       text += row.hard.name + ": known: " + row.hard.border + "\n";
   }

@@ -32,10 +32,15 @@ TriangleMesh GridMesh(const std::vector<double>& x,
                       const std::vector<double>& z);
 // The same hung upright in the plane x = 0, its side z seen from +x.
 TriangleMesh Upright(TriangleMesh sheet);
+// A ring of tube: cloth without a boundary.
+TriangleMesh RingMesh(double radius, double tube, int around, int across);
 
 // A sheet of jersey-like cloth over a ball of 12 cm, touching at the top: what
 // most scenes change in one respect.
 HardScene SheetOverBall(int cells = 10, double side = 0.35);
+// Two boards close on an upright sheet, faster than it falls, to a gap (the
+// cloth and its two clearances need 4 mm); then one slides along by 5 cm.
+HardScene SheetBetweenBoards(double gap);
 // A garment with the placed shape as the rest shape.
 Garment AsGarment(const TriangleMesh& mesh);
 // Cloth and body of a scene.

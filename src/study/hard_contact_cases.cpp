@@ -23,22 +23,6 @@ HardScene StartInside() {
   return scene;
 }
 
-// Two boards close on an upright sheet to a gap of 2 mm, less than the cloth
-// and its two clearances need, while one of them slides along.
-HardScene Squeezed() {
-  const Vector3d half(0.05, 0.15, 0.15);
-  const TriangleMesh left = Shifted(BoxMesh(half), Vector3d(-0.07, 0, 0));
-  const TriangleMesh right = Shifted(BoxMesh(half), Vector3d(0.07, 0, 0));
-  HardScene scene = SceneOf(Upright(SheetMesh(8, 0.2)), Joined(left, right));
-  scene.frames = 60;
-  scene.body_at = [left, right](int frame) {
-    const double t = std::min(frame, 40) / 40.0;
-    const Vector3d in(0.019 * t, 0, 0), along(0, 0.05 * t, 0);
-    return Joined(Shifted(left, in), Shifted(right, along - in)).vertices;
-  };
-  return scene;
-}
-
 // Two boards in a V that closes from 80 to 20 degrees on a sheet hung in it:
 // they cross at the apex.
 HardScene Armpit() {
@@ -88,9 +72,9 @@ HardScene BodyVertex() {
                  BallMesh(0.12, 0));
 }
 
-// A blade of 2 mm whose faces are 20 m long.
+// A blade of 2 mm whose faces are 20 m long, below a line of vertices.
 HardScene SliverFace() {
-  return SceneOf(Shifted(SheetMesh(10, 0.3), Vector3d(0.01, 0.053, 0)),
+  return SceneOf(Shifted(SheetMesh(10, 0.3), Vector3d(0.0003, 0.053, 0)),
                  BoxMesh(Vector3d(0.001, 0.05, 10)));
 }
 
@@ -113,6 +97,17 @@ HardScene Tunnelling() {
   scene.misplaced = [](const Points& cloth, const Points&) {
     return static_cast<int>((cloth.row(1).array() < 0).count());
   };
+  return scene;
+}
+
+// Two sheets, one on the other, over the ball: cloth on cloth on body.
+HardScene Layers() {
+  HardScene scene = SheetOverBall(8, 0.25);
+  const TriangleMesh sheet = SheetMesh(8, 0.25);
+  scene.garment =
+      AsGarment(Joined(Shifted(sheet, Vector3d(0, 0.123, 0)),
+                       Shifted(sheet, Vector3d(0.01, 0.126, 0.007))));
+  scene.options.effects.push_back("self_contact");
   return scene;
 }
 
@@ -174,7 +169,9 @@ void AddContactCases(std::vector<HardCase>* cases) {
     cases->push_back({std::string("contact/") + name, shows, std::move(make)});
   };
   add("start_inside", "cloth that starts 3 cm inside the body", StartInside);
-  add("squeezed", "cloth between boards that leave it no room", Squeezed);
+  add("squeezed", "cloth between boards that leave it no room", [] {
+    return SheetBetweenBoards(0.002);
+  });
   add("armpit", "cloth in a V that closes on it", Armpit);
   add("all_in_contact", "every vertex in contact", AllInContact);
   add("cube_edge", "a vertex exactly above an edge", CubeEdge);
@@ -184,6 +181,7 @@ void AddContactCases(std::vector<HardCase>* cases) {
       BodyVertex);
   add("sliver_face", "a blade of 2 mm with faces of aspect 10,000", SliverFace);
   add("self_intersecting", "a body that crosses itself", SelfIntersecting);
+  add("layers", "two sheets on each other and the body", Layers);
   add("tunnelling", "30 m/s onto a plate of 4 mm", Tunnelling);
   add("mu_0", "no friction", [] { return Friction(0); });
   add("mu_0.3", "friction 0.3", [] { return Friction(0.3); });

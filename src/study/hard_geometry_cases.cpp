@@ -38,29 +38,8 @@ HardScene OneTriangle() {
   return SceneOf(cloth, BallMesh(0.12));
 }
 
-// A ring of tube: cloth without a boundary.
-TriangleMesh Ring(double radius, double tube, int around, int across) {
-  TriangleMesh mesh;
-  mesh.vertices.resize(3, around * across);
-  mesh.faces.resize(3, 2 * around * across);
-  const auto at = [&](int i, int j) {
-    return (i % around) * across + j % across;
-  };
-  int f = 0;
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < across; ++j) {
-      const double a = 2 * EIGEN_PI * i / around, b = 2 * EIGEN_PI * j / across;
-      const double r = radius + tube * std::cos(b);
-      mesh.vertices.col(at(i, j)) =
-          Vector3d(r * std::cos(a), tube * std::sin(b), r * std::sin(a));
-      mesh.faces.col(f++) << at(i, j), at(i, j + 1), at(i + 1, j);
-      mesh.faces.col(f++) << at(i + 1, j), at(i, j + 1), at(i + 1, j + 1);
-    }
-  return mesh;
-}
-
 HardScene ClosedTube() {
-  return SceneOf(Shifted(Ring(0.07, 0.025, 18, 8), Vector3d(0, 0.13, 0)),
+  return SceneOf(Shifted(RingMesh(0.07, 0.025, 18, 8), Vector3d(0, 0.13, 0)),
                  BallMesh(0.12));
 }
 

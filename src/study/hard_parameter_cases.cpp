@@ -116,6 +116,9 @@ void AddParameterCases(std::vector<HardCase>* cases) {
             {{16, Vector3d(0, -EIGEN_PI, 0)}, {17, Vector3d(0, EIGEN_PI, 0)}});
       },
       caught);
+  add("arms_pressed", "sleeves squeezed between arms and torso", [] {
+    return ToPose({{16, Vector3d(0, 0, -1.4)}, {17, Vector3d(0, 0, 1.4)}});
+  });
   add("beta_5", "shape coefficients of 5 and -5", [] { return ToShape(5); });
   add("beta_minus_5", "shape coefficients of -5 and 5", [] {
     return ToShape(-5);

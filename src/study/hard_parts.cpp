@@ -3,6 +3,8 @@
 // What hard scenes are made of.
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "hard_cases.h"
@@ -96,6 +98,26 @@ TriangleMesh Upright(TriangleMesh sheet) {
       Eigen::AngleAxisd(-EIGEN_PI / 2, Vector3d::UnitZ()).toRotationMatrix());
 }
 
+TriangleMesh RingMesh(double radius, double tube, int around, int across) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, around * across);
+  mesh.faces.resize(3, 2 * around * across);
+  const auto at = [&](int i, int j) {
+    return (i % around) * across + j % across;
+  };
+  int f = 0;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double a = 2 * EIGEN_PI * i / around, b = 2 * EIGEN_PI * j / across;
+      const double r = radius + tube * std::cos(b);
+      mesh.vertices.col(at(i, j)) =
+          Vector3d(r * std::cos(a), tube * std::sin(b), r * std::sin(a));
+      mesh.faces.col(f++) << at(i, j), at(i, j + 1), at(i + 1, j);
+      mesh.faces.col(f++) << at(i + 1, j), at(i, j + 1), at(i + 1, j + 1);
+    }
+  return mesh;
+}
+
 Garment AsGarment(const TriangleMesh& mesh) {
   return GarmentFromRestMesh(mesh.vertices, mesh.faces);
 }
@@ -114,6 +136,22 @@ HardScene SheetOverBall(int cells, double side) {
   return SceneOf(
       Shifted(SheetMesh(cells, side), Vector3d(0, kRadius + 0.003, 0)),
       BallMesh(kRadius));
+}
+
+HardScene SheetBetweenBoards(double gap) {
+  const Vector3d half(0.05, 0.3, 0.15);
+  const TriangleMesh left = Shifted(BoxMesh(half), Vector3d(-0.07, 0, 0));
+  const TriangleMesh right = Shifted(BoxMesh(half), Vector3d(0.07, 0, 0));
+  HardScene scene = SceneOf(Upright(SheetMesh(8, 0.2)), Joined(left, right));
+  scene.frames = 60;
+  scene.body_at = [=](int frame) {
+    const double closed = std::min(frame, 6) / 6.0;
+    const double slid = std::clamp((frame - 6) / 40.0, 0.0, 1.0);
+    const Vector3d in((0.02 - 0.5 * gap) * closed, 0, 0);
+    const Vector3d along(0, 0.05 * slid, 0);
+    return Joined(Shifted(left, in), Shifted(right, along - in)).vertices;
+  };
+  return scene;
 }
 
 void SetOption(HardScene* scene,

@@ -138,7 +138,7 @@ void CheckDerivative(const HardScene& scene,
     outcome->columns = static_cast<int>(check.columns.size()) - check.switched;
     if (outcome->columns > 0) outcome->derivative = check.worst;
   } catch (const InputError& error) {
-    outcome->broken.push_back(error.what());
+    outcome->broken.push_back({"derivative", error.what()});
   }
 }
 
@@ -152,25 +152,28 @@ std::string Text(auto... parts) {
 // Holds the outcome against the limits.
 void Judge(const HardScene& scene, HardOutcome* o) {
   const HardLimits& limits = scene.limits;
-  const auto fail = [&](const std::string& text) { o->broken.push_back(text); };
+  const auto fail = [&](const char* limit, auto... parts) {
+    o->broken.push_back({limit, Text(parts...)});
+  };
   if (o->step.failed > 0 || o->frames < scene.frames)
-    fail(Text("not finite in frame ", o->frames + 1, " of ", scene.frames));
+    fail("finite", "not finite in frame ", o->frames + 1, " of ", scene.frames);
   if (o->step.missed > limits.missed)
-    fail(Text(o->step.missed,
-              " of ",
-              o->step.substeps,
-              " steps above the contact tolerance"));
+    fail("converged",
+         o->step.missed,
+         " of ",
+         o->step.substeps,
+         " steps above the contact tolerance");
   const double tolerance = scene.options.step.friction.tolerance;
   if (o->step.missed == 0 && o->step.worst_residual > tolerance)
-    fail(Text("residual ", o->step.worst_residual, " not counted"));
+    fail("counted", "residual ", o->step.worst_residual, " not counted");
   if (!(o->penetration <= limits.penetration))
-    fail(Text("penetration ", 1e3 * o->penetration, " mm"));
+    fail("penetration", "penetration ", 1e3 * o->penetration, " mm");
   if (!(o->energy <= limits.energy))
-    fail(Text("energy gained from nowhere: ", o->energy));
-  if (!(o->creep <= limits.creep)) fail(Text("creep of ", o->creep, " m"));
-  if (o->misplaced > 0) fail(Text(o->misplaced, " vertices misplaced"));
+    fail("energy", "energy gained from nowhere: ", o->energy);
+  if (!(o->creep <= limits.creep)) fail("creep", "creep of ", o->creep, " m");
+  if (o->misplaced > 0) fail("misplaced", o->misplaced, " vertices misplaced");
   if (o->derivative > limits.derivative)
-    fail(Text("derivative off by ", o->derivative));
+    fail("derivative", "derivative off by ", o->derivative);
 }
 
 // Follows one scene through its frames.
@@ -276,11 +279,12 @@ HardOutcome RunHardCase(const HardCase& hard, bool derivative) {
     HardOutcome outcome;
     outcome.refused = true;
     outcome.refusal = error.what();
-    if (!hard.refused) outcome.broken.push_back(error.what());
+    if (!hard.refused) outcome.broken.push_back({"refused", error.what()});
     return outcome;
   }
   HardOutcome outcome = RunHardScene(*scene, derivative);
-  if (hard.refused) outcome.broken.push_back("taken, though bad input");
+  if (hard.refused)
+    outcome.broken.push_back({"refused", "taken, though bad input"});
   return outcome;
 }
 

@@ -69,6 +69,12 @@ struct HardScene {
   HardLimits limits;
 };
 
+// A limit that does not hold.
+struct Breach {
+  std::string limit;  // one word: "penetration"
+  std::string text;   // by how much
+};
+
 // What running a scene showed.
 struct HardOutcome {
   bool refused = false;  // the scene could not be made; why: `refusal`
@@ -85,8 +91,7 @@ struct HardOutcome {
   double derivative = std::numeric_limits<double>::quiet_NaN();
   int columns = 0, switched = 0;
   double seconds = 0;
-  // The limits that do not hold, in words; empty: the scene holds.
-  std::vector<std::string> broken;
+  std::vector<Breach> broken;  // empty: the scene holds
 };
 
 // Runs the scene and holds it against its limits. `derivative`: also the

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// invsim soak: random hard scenes for as long as wanted.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "invsim/base/interrupt.h"
+#include "invsim/base/progress.h"
+#include "invsim/base/stopwatch.h"
+#include "invsim/report/run_folder.h"
+#include "invsim/report/soak_report.h"
+#include "invsim/study/random_scene.h"
+#include "invsim/study/soak.h"
+
+namespace invsim {
+namespace {
+
+struct SoakOptions {
+  double seconds = 3600;
+  int scenes = 0;
+};
+
+void Describe(OptionTable* table, SoakOptions* o) {
+  table->Add("seconds",
+             &o->seconds,
+             {.doc = "how long scenes are begun", .unit = "s", .at_least = 0});
+  table->Add(
+      "scenes",
+      &o->scenes,
+      {.doc = "scenes at most; 0: as many as the time allows", .at_least = 0});
+}
+
+class SoakCommand : public Command {
+ public:
+  std::string name() const override { return "soak"; }
+  std::string doc() const override {
+    return "random hard scenes, from seed --seed on, for as long as wanted";
+  }
+  void AddArguments(CLI::App* app, KeyFlags* flags) override {
+    flags->Add("--seconds", "soak.seconds", "how long");
+    flags->Add("--scenes", "soak.scenes", "how many at most; 1: only --seed");
+    app->add_flag("--force", force_, "replace an earlier report in DIR");
+  }
+  void AddOptions(OptionTable* table) override {
+    table->AddSection("soak", &options_);
+  }
+  ExitCode Run(const CommandContext& context) override;
+
+ private:
+  // Of the work, 0 to 1.
+  double Done(const SoakResult& result, double seconds) const {
+    const double time = seconds / std::max(options_.seconds, 1e-9);
+    const double count =
+        options_.scenes > 0
+            ? static_cast<double>(result.scenes) / options_.scenes
+            : 0;
+    return std::max(time, count);
+  }
+
+  SoakOptions options_;
+  bool force_ = false;
+};
+
+ExitCode SoakCommand::Run(const CommandContext& context) {
+  const InterruptGuard interrupt;
+  std::optional<RunFolder> folder;
+  if (!context.out.empty()) folder.emplace(context.out, force_);
+  SoakResult result;
+  result.first_seed = static_cast<std::uint64_t>(context.run.seed);
+  {
+    const Stopwatch watch;
+    Progress progress(context.verbosity < 0 ? nullptr : &std::cerr,
+                      StyleFor(STDERR_FILENO),
+                      "percent",
+                      100);
+    for (int percent = 0; percent < 100 && !InterruptRequested();) {
+      const RandomScene drawn = DrawScene(result.first_seed + result.scenes);
+      result.Add(drawn, RunRandomScene(drawn));
+      const double done = 100 * Done(result, watch.seconds());
+      for (; percent < 100 && percent + 1 <= done; ++percent)
+        progress.Advance(std::to_string(result.scenes) + " scenes, " +
+                         std::to_string(result.failures.size()) + " failing");
+    }
+  }
+  if (folder) {
+    folder->Write("config.resolved.toml", ResolvedToml(*context.options));
+    folder->Write("report.json", SoakJson(result));
+  }
+  std::cout << (context.json ? SoakJson(result) : SoakText(result));
+  // Stopped or not, it is a soak of so many scenes.
+  return result.failures.empty() ? ExitCode::kOk : ExitCode::kFailed;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> MakeSoakCommand() {
+  return std::make_unique<SoakCommand>();
+}
+
+}  // namespace invsim

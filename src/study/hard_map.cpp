@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/study/hard_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hard_cases.h"
+
+namespace invsim {
+namespace {
+
+// A sheet falls over a ball for half a second, one step a frame.
+HardMap StiffnessAndStep() {
+  HardMap map;
+  map.name = "stiffness_dt";
+  map.shows = "a sheet of 3.5 cm cells, 0.2 kg/m^2, falls over a ball";
+  map.x_title = "membrane stiffness, N/m";
+  map.y_title = "length of a step, s";
+  map.x = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
+  map.x_labels = {"1", "10", "100", "1e3", "1e4", "1e5", "1e6", "1e7", "1e8"};
+  for (int rate : {2000, 1000, 500, 240, 120, 60, 30, 20, 10, 5}) {
+    map.y.push_back(1.0 / rate);
+    map.y_labels.push_back("1/" + std::to_string(rate));
+  }
+  map.make = [](double stiffness, double dt) {
+    HardScene scene = SheetOverBall();
+    scene.material.stretch = IsotropicStretch{stiffness, 0.3};
+    scene.frames_per_second = 1 / dt;
+    scene.options.step.substeps = 1;
+    scene.frames = std::max(5, static_cast<int>(std::lround(0.5 / dt)));
+    return scene;
+  };
+  return map;
+}
+
+// The gallery's boards that close on a sheet while one slides along.
+HardMap FrictionAndSqueeze() {
+  HardMap map;
+  map.name = "mu_squeeze";
+  map.shows = "a sheet between boards that close and slide, clearance 2 mm";
+  map.x_title =
+      "gap between the boards, mm (below 4 no room is left for the "
+      "clearances, below 0 they cross)";
+  map.y_title = "friction coefficient";
+  map.x = {6, 5, 4.5, 4, 3.5, 3, 2, 1, 0.5, 0.1, 0, -1, -3};
+  map.y = {0, 0.1, 0.3, 0.6, 1, 2, 5, 10, 30, 100};
+  map.make = [](double gap, double mu) {
+    HardScene scene = SheetBetweenBoards(1e-3 * gap);
+    scene.options.contact.friction = mu;
+    return scene;
+  };
+  return map;
+}
+
+}  // namespace
+
+const std::vector<HardMap>& HardMaps() {
+  static const std::vector<HardMap> maps = {StiffnessAndStep(),
+                                            FrictionAndSqueeze()};
+  return maps;
+}
+
+HardMapCell RunMapCell(const HardMap& map, int i, int j) {
+  HardMapCell cell;
+  cell.outcome = RunHardScene(map.make(map.x[i], map.y[j]), false);
+  const StepStats& step = cell.outcome.step;
+  cell.iterations =
+      static_cast<double>(step.admm_iterations + step.newton_iterations) /
+      std::max(step.substeps, 1);
+  return cell;
+}
+
+}  // namespace invsim

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/study/random_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "invsim/study/soak.h"
+
+namespace invsim {
+namespace {
+
+constexpr int kShards = 8;
+constexpr int kScenesPerShard = 40;
+
+class RandomSceneTest : public testing::TestWithParam<int> {};
+
+TEST_P(RandomSceneTest, Hold) {
+  SoakResult result;
+  for (int k = 0; k < kScenesPerShard; ++k) {
+    const RandomScene drawn = DrawScene(GetParam() * kScenesPerShard + k);
+    result.Add(drawn, RunRandomScene(drawn));
+  }
+  for (const SoakFailure& failure : result.failures)
+    for (const Breach& breach : failure.broken)
+      ADD_FAILURE() << "seed " << failure.seed << ": " << breach.text
+                    << "\n  scene: " << failure.words
+                    << "\n  again: invsim soak --seed " << failure.seed
+                    << " --scenes 1";
+  // Steps above the contact tolerance are counted, and few outside slivers.
+  EXPECT_EQ(result.scenes, kScenesPerShard);
+  EXPECT_LT(result.scenes_missed, kScenesPerShard / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSceneTest, testing::Range(0, kShards));
+
+TEST(DrawScene, IsTheSameForTheSameSeed) {
+  for (const std::uint64_t seed : {0, 7, 1234567}) {
+    const RandomScene a = DrawScene(seed), b = DrawScene(seed);
+    EXPECT_EQ(a.words, b.words);
+    EXPECT_EQ(a.scene.garment.placed, b.scene.garment.placed);
+    EXPECT_EQ(a.scene.body.vertices, b.scene.body.vertices);
+    if (a.scene.body_at) EXPECT_EQ(a.scene.body_at(3), b.scene.body_at(3));
+  }
+  EXPECT_NE(DrawScene(0).words, DrawScene(1).words);
+}
+
+// Every kind is drawn, and the edges of the ranges are reached.
+TEST(DrawScene, CoversTheRanges) {
+  std::string all;
+  double softest = 1e9, stiffest = 0, shortest = 1, longest = 0;
+  int derivatives = 0, large = 0;
+  constexpr int kScenes = 500;
+  for (int seed = 0; seed < kScenes; ++seed) {
+    const RandomScene drawn = DrawScene(seed);
+    all += drawn.words + "\n";
+    if (const auto* stretch =
+            std::get_if<IsotropicStretch>(&drawn.scene.material.stretch)) {
+      softest = std::min(softest, stretch->stiffness);
+      stiffest = std::max(stiffest, stretch->stiffness);
+    }
+    const double frame = 1 / drawn.scene.frames_per_second;
+    shortest = std::min(shortest, frame);
+    longest = std::max(longest, frame);
+    derivatives += drawn.derivative;
+    large += drawn.scene.garment.num_vertices() > 120;
+  }
+  for (const char* kind : {"a triangle",      "a ring",
+                           "twice",           "slivers",
+                           "uneven",          "without gravity",
+                           "without bending", "without inertia",
+                           "mass_damping",    "stiffness_damping",
+                           "air_drag",        "self_contact",
+                           "mu 0,",           "mu 5,",
+                           "a ball",          "a cube",
+                           "an octahedron",   "a blade",
+                           "two capsules",    "between boards",
+                           "between a V",     "no body",
+                           "shaken",          "turning",
+                           "jumping",         "thrown",
+                           "inside",          "pinned",
+                           "14 km",           "turned"})
+    EXPECT_NE(all.find(kind), std::string::npos) << kind;
+  EXPECT_LT(softest, 2);
+  EXPECT_GT(stiffest, 5e5);
+  EXPECT_LT(shortest, 1 / 1800.0);
+  EXPECT_GT(longest, 1 / 11.0);
+  EXPECT_NEAR(derivatives, 0.2 * kScenes, 0.06 * kScenes);
+  EXPECT_EQ(large, 0);
+}
+
+}  // namespace
+}  // namespace invsim

@@ -24,6 +24,11 @@ constexpr double kStandardGravity = 9.81;
 // sub-step.
 constexpr int kLateRounds = 4;
 
+// The share of energy from nowhere at which a step is halved, and how far
+// lifting the cloth is too little energy to speak of, m.
+constexpr double kMostGain = 0.01;
+constexpr double kLift = 1e-3;
+
 Points Blend(const Points& a, const Points& b, double s) {
   return (1 - s) * a + s * b;
 }
@@ -135,6 +140,8 @@ struct Simulator::Impl {
   Outcome Solve(SubstepRecord* sub, LinearizationRecord* lin, StepStats* stats);
   Outcome Iterate(SubstepRecord* sub, StepStats* stats);
   bool SweepCloth(int round, SubstepRecord* sub, StepStats* stats);
+  double Energy(const ClothState& state) const;
+  double Gain(const SubstepRecord& sub) const;
   Outcome Substep(const Points& body0,
                   const Points& body1,
                   SubstepRecord* sub,
@@ -425,6 +432,39 @@ Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
   return outcome;
 }
 
+double Simulator::Impl::Energy(const ClothState& state) const {
+  double energy = 0.5 * (state.v.colwise().squaredNorm() * setup.mass)(0);
+  for (const auto& effect : setup.effects) energy += effect->Energy(state);
+  return energy;
+}
+
+// Energy that a step has from nowhere, as a share of what went about in it: a
+// linearisation does not see the strain that the step's own turning makes.
+double Simulator::Impl::Gain(const SubstepRecord& sub) const {
+  if (!inertia) return 0;
+  const LinearizationRecord& lin = sub.linearizations.back();
+  ClothState end{sub.start.x, sub.start.v};
+  Stacked(end.v) = lin.v;
+  end.x += sub.dt * end.v;
+  double given = 0, turnover = kLift * weight.sum();
+  const auto work = [&](double w) {
+    given += w;
+    turnover += std::abs(w);
+  };
+  for (size_t k = 0; k < sub.contacts.size(); ++k)
+    work(sub.dt * lin.forces[k].dot(sub.contacts[k].Gather(lin.v)));
+  for (const auto& effect : setup.effects) {
+    if (effect->conservative()) continue;
+    Points force = Points::Zero(3, pattern->size);
+    effect->AddForce(end, &force);
+    work(std::max(0.0, sub.dt * Stacked(force).dot(lin.v)));
+  }
+  const double before = Energy(sub.start), after = Energy(end);
+  const double kinetic = 0.5 * (end.v.colwise().squaredNorm() * setup.mass)(0);
+  turnover += std::max(kinetic, std::abs(after - before));
+  return (after - before - given) / turnover;
+}
+
 bool Simulator::Impl::Interval(const Points& body0,
                                const Points& body1,
                                double duration,
@@ -441,7 +481,8 @@ bool Simulator::Impl::Interval(const Points& body0,
   sub.start = *state;
   StepStats own;
   const Outcome outcome = Substep(body0, body1, &sub, &own);
-  const bool good = outcome.finite && outcome.converged;
+  const bool gained = outcome.finite && Gain(sub) > kMostGain;
+  const bool good = outcome.finite && outcome.converged && !gained;
   if (!good && halvings > 0) {
     own.worst_residual = 0;  // of an attempt that is not kept
     stats->Add(own);

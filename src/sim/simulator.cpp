@@ -141,6 +141,7 @@ struct Simulator::Impl {
   Outcome Iterate(SubstepRecord* sub, StepStats* stats);
   bool SweepCloth(int round, SubstepRecord* sub, StepStats* stats);
   double Energy(const ClothState& state) const;
+  ClothState End(const SubstepRecord& sub) const;
   double Gain(const SubstepRecord& sub) const;
   Outcome Substep(const Points& body0,
                   const Points& body1,
@@ -423,13 +424,25 @@ Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
   }
   if (cloth_detector)
     for (int round = 0; outcome.finite && SweepCloth(round, sub, stats);
-         ++round)
+         ++round) {
+      stats->worst_residual = 0;  // of an attempt that is not kept
       outcome = Iterate(sub, stats);
+    }
   stats->most_contacts =
       std::max(stats->most_contacts, static_cast<int>(sub->contacts.size()));
   stats->most_cloth_contacts = std::max(
       stats->most_cloth_contacts, static_cast<int>(sub->cloth_sources.size()));
   return outcome;
+}
+
+// Where a step that was solved leads.
+ClothState Simulator::Impl::End(const SubstepRecord& sub) const {
+  ClothState end = sub.start;
+  Stacked(end.v) = sub.linearizations.back().v;
+  if (sub.kept.size() > 0)
+    end.v.array().rowwise() *= sub.kept.transpose().array();
+  end.x = sub.start.x + sub.dt * end.v;
+  return end;
 }
 
 double Simulator::Impl::Energy(const ClothState& state) const {
@@ -443,9 +456,7 @@ double Simulator::Impl::Energy(const ClothState& state) const {
 double Simulator::Impl::Gain(const SubstepRecord& sub) const {
   if (!inertia) return 0;
   const LinearizationRecord& lin = sub.linearizations.back();
-  ClothState end{sub.start.x, sub.start.v};
-  Stacked(end.v) = lin.v;
-  end.x += sub.dt * end.v;
+  const ClothState end = End(sub);
   double given = 0, turnover = kLift * weight.sum();
   const auto work = [&](double w) {
     given += w;
@@ -515,10 +526,7 @@ bool Simulator::Impl::Interval(const Points& body0,
   }
   if (!outcome.converged) ++stats->missed;
   const LinearizationRecord& lin = sub.linearizations.back();
-  Stacked(state->v) = lin.v;
-  if (sub.kept.size() > 0)
-    state->v.array().rowwise() *= sub.kept.transpose().array();
-  state->x = sub.start.x + sub.dt * state->v;
+  *state = End(sub);
   contact_force.setZero();
   exact_force.setZero();
   Eigen::Map<VectorXd> force = Stacked(contact_force);

@@ -3,6 +3,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -49,6 +50,29 @@ std::optional<ConfigValue> FromToml(const toml::node& node) {
   return ScalarFromToml(node);
 }
 
+// toml++ takes keys of any number of parts apart by recursion, and ends the
+// process where the stack ends (seen at 30,000 parts). Options fill a few
+// kilobytes and have three parts at most.
+constexpr size_t kLongestFile = 32 << 10;
+constexpr int kMostParts = 16;
+
+bool IsControl(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
+void CheckKey(const std::string& key, const std::string& origin) {
+  if (std::any_of(key.begin(), key.end(), IsControl))
+    throw UsageError(origin + ": key " + TomlText(ConfigValue(key)) +
+                     ": expected no control character");
+}
+
+// What toml++ complains of; it quotes the file as it is.
+std::string Complaint(const toml::parse_error& error) {
+  std::string text(error.description());
+  std::replace_if(text.begin(), text.end(), IsControl, '?');
+  return text;
+}
+
 // Calls `entry(key, node, origin)` for every value below `table` and
 // `opened(key, origin)` for every table.
 template <typename Entry, typename Opened>
@@ -56,13 +80,18 @@ void Flatten(const toml::table& table,
              const std::string& prefix,
              const std::string& name,
              const Entry& entry,
-             const Opened& opened) {
+             const Opened& opened,
+             int parts = 1) {
   for (const auto& [key, node] : table) {
     const std::string full = prefix + std::string(key.str());
     const std::string origin = Where(name, key.source());
+    CheckKey(full, origin);
+    if (parts > kMostParts)
+      throw UsageError(origin + ": " + full + ": expected a key of at most " +
+                       std::to_string(kMostParts) + " parts");
     if (const auto* inner = node.as_table()) {
       opened(full, origin);
-      Flatten(*inner, full + ".", name, entry, opened);
+      Flatten(*inner, full + ".", name, entry, opened, parts + 1);
     } else {
       entry(full, node, origin);
     }
@@ -148,12 +177,15 @@ Config Config::FromFile(const std::string& path) {
 }
 
 Config Config::FromText(std::string_view toml, const std::string& name) {
+  if (toml.size() > kLongestFile)
+    throw UsageError(name + ": " + std::to_string(toml.size()) +
+                     " bytes: expected a configuration of at most " +
+                     std::to_string(kLongestFile));
   toml::table table;
   try {
     table = toml::parse(toml);
   } catch (const toml::parse_error& error) {
-    throw UsageError(Where(name, error.source()) + ": " +
-                     std::string(error.description()));
+    throw UsageError(Where(name, error.source()) + ": " + Complaint(error));
   }
   Config config;
   const auto entry = [&](const std::string& key,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/base/error.h"
 #include "invsim/body/body_model.h"
+#include "invsim/io/file.h"
 #include "invsim/io/npz.h"
 
 namespace invsim {
@@ -75,7 +76,11 @@ Faces ReadFaces(const Npz& npz, Eigen::Index num_vertices) {
 }  // namespace
 
 BodyModel ReadBodyModel(const std::string& path) {
-  const Npz npz = ReadNpz(path);
+  return ParseBodyModel(ReadFileBytes(path), path);
+}
+
+BodyModel ParseBodyModel(std::string bytes, const std::string& path) {
+  const Npz npz = Npz::Parse(std::move(bytes), path);
   BodyModelData data;
   data.parents = ReadParents(npz);
   if (data.parents.size() != kNumJoints) {
@@ -100,7 +105,7 @@ BodyModel ReadBodyModel(const std::string& path) {
   return BodyModel(std::move(data), path);
 }
 
-void WriteBodyModel(const std::string& path, const BodyModel& body) {
+std::string FormatBodyModel(const BodyModel& body) {
   const BodyModelData& data = body.data();
   const std::int64_t n = body.num_vertices();
   std::vector<std::uint32_t> kintree(2 * kNumJoints);
@@ -128,7 +133,11 @@ void WriteBodyModel(const std::string& path, const BodyModel& body) {
         "posedirs",
         NpyArray::Floats({n, 3, kNumPoseFeatures}, Values(data.posedirs)));
   }
-  WriteNpz(path, arrays);
+  return FormatNpz(arrays);
+}
+
+void WriteBodyModel(const std::string& path, const BodyModel& body) {
+  WriteFileBytes(path, FormatBodyModel(body));
 }
 
 }  // namespace invsim

@@ -5,6 +5,7 @@
 
 #include "invsim/base/error.h"
 #include "invsim/body/motion.h"
+#include "invsim/io/file.h"
 #include "invsim/io/npz.h"
 
 namespace invsim {
@@ -94,7 +95,11 @@ void ReadPoses(const Npz& npz, Motion* motion) {
 }  // namespace
 
 Motion ReadMotion(const std::string& path) {
-  const Npz npz = ReadNpz(path);
+  return ParseMotion(ReadFileBytes(path), path);
+}
+
+Motion ParseMotion(std::string bytes, const std::string& path) {
+  const Npz npz = Npz::Parse(std::move(bytes), path);
   Motion motion;
   motion.frame_rate = ReadFrameRate(npz);
   motion.shape = ReadBetas(npz);

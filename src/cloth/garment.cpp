@@ -10,6 +10,7 @@
 #include "invsim/base/error.h"
 #include "invsim/geometry/mesh.h"
 #include "invsim/geometry/topology.h"
+#include "invsim/io/file.h"
 #include "invsim/io/obj.h"
 
 namespace invsim {
@@ -133,7 +134,11 @@ void PatternAxes(const Vector3d& normal, Vector3d* x, Vector3d* y) {
 }  // namespace
 
 Garment ReadGarment(const std::string& path) {
-  const ObjMesh mesh = ReadObj(path);
+  return ParseGarment(ReadFileBytes(path), path);
+}
+
+Garment ParseGarment(std::string_view obj, const std::string& path) {
+  const ObjMesh mesh = ParseObj(obj, path);
   const std::string name = path + " (counting from 0)";
   ValidateMesh(mesh.vertices, mesh.faces, name);
   Garment g = GarmentFromRestMesh(mesh.vertices, mesh.faces);

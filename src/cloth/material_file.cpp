@@ -3,10 +3,10 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "invsim/base/error.h"
+#include "invsim/io/file.h"
 
 namespace invsim {
 namespace {
@@ -64,15 +64,15 @@ class MemberReader {
   const Json& object_;
 };
 
-Json Parse(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path + ": cannot be read");
+Json Parse(std::string_view text, const std::string& path) {
   Json json;
   try {
-    json = Json::parse(file);
+    json = Json::parse(text);
   } catch (const Json::parse_error& error) {
     throw InputError(path + ": not JSON from byte " +
                      std::to_string(error.byte) + " on");
+  } catch (const Json::out_of_range&) {
+    throw InputError(path + ": holds a number too large for 64 bits");
   }
   if (!json.is_object())
     throw InputError(path + ": expected a JSON object with density, " +
@@ -82,8 +82,8 @@ Json Parse(const std::string& path) {
 
 }  // namespace
 
-Material ReadMaterial(const std::string& path) {
-  const Json json = Parse(path);
+Material ParseMaterial(std::string_view text, const std::string& path) {
+  const Json json = Parse(text, path);
   const MemberReader reader(path, json);
   Material material;
   material.name = std::filesystem::path(path).stem().string();
@@ -93,6 +93,10 @@ Material ReadMaterial(const std::string& path) {
   material.doc = "measured fabric from " + path;
   ValidateMaterial(material, path);
   return material;
+}
+
+Material ReadMaterial(const std::string& path) {
+  return ParseMaterial(ReadFileBytes(path), path);
 }
 
 }  // namespace invsim

@@ -121,7 +121,8 @@ void AppendUtf8(std::uint32_t code, std::string* out) {
   }
 }
 
-// A malformed sequence gives its bytes as code points, as Latin-1 would.
+// A malformed sequence (cut short, or longer than its code point needs) gives
+// its bytes as code points, as Latin-1 would.
 std::u32string FromUtf8(const std::string& text) {
   std::u32string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -134,25 +135,26 @@ std::u32string FromUtf8(const std::string& text) {
       code = code << 6 | (text[i + 1 + read] & 0x3f);
       ++read;
     }
-    out.push_back(read == tail ? code : lead);
-    i += read == tail ? 1 + tail : 1;
+    constexpr std::uint32_t kSmallest[] = {0, 0x80, 0x800, 0x10000};
+    const bool well_formed = read == tail && code >= kSmallest[tail];
+    out.push_back(well_formed ? code : lead);
+    i += well_formed ? 1 + tail : 1;
   }
   return out;
 }
 
 std::string StringAt(const char* at, NpyType type, std::size_t item_size) {
-  std::string text;
-  if (type == NpyType::kBytes) {
-    text.assign(at, item_size);
-    text.resize(text.find_last_not_of('\0') + 1);
-    return text;
-  }
   std::u32string code_points;
-  for (std::size_t i = 0; i < item_size; i += 4) {
-    code_points.push_back(Load<char32_t>(at + i));
+  if (type == NpyType::kBytes) {
+    code_points = FromUtf8(std::string(at, item_size));
+  } else {
+    for (std::size_t i = 0; i < item_size; i += 4) {
+      code_points.push_back(Load<char32_t>(at + i) & 0x1fffff);
+    }
   }
   code_points.resize(code_points.find_last_not_of(U'\0') + 1);
-  for (const char32_t code : code_points) AppendUtf8(code & 0x1fffff, &text);
+  std::string text;
+  for (const char32_t code : code_points) AppendUtf8(code, &text);
   return text;
 }
 

@@ -13,6 +13,7 @@ namespace {
 constexpr std::string_view kMagic("\x93NUMPY", 6);
 // NumPy refuses to evaluate longer heads too.
 constexpr std::size_t kLongestHeader = 10000;
+constexpr std::size_t kMostDimensions = 64;
 
 // A reader of the one Python literal a head consists of.
 class LiteralReader {
@@ -64,6 +65,11 @@ class LiteralReader {
       if (error != std::errc() || value < 0) Fail();
       at_ += end - begin;
       TryTake('L');  // as Python 2 wrote long numbers
+      if (values.size() == kMostDimensions) {
+        throw InputError(name_ + ": array of more than " +
+                         std::to_string(kMostDimensions) +
+                         " dimensions: expected at most as many as NumPy's");
+      }
       values.push_back(value);
       if (!TryTake(',')) {
         Expect(')');

@@ -85,11 +85,12 @@ NpyArray Npz::Array(const std::string& array) const {
     for (const std::string& name : Names()) {
       there += (there.empty() ? "" : ", ") + name;
     }
-    throw InputError(name_ + ": has no array " + array + " (it has: " +
-                     (there.empty() ? "none" : Printable(there)) + ")");
+    throw InputError(
+        name_ + ": has no array " + Printable(array) +
+        " (it has: " + (there.empty() ? "none" : Printable(there)) + ")");
   }
   return ParseNpy(zip_.Extract(array + std::string(kSuffix)),
-                  name_ + ": " + array);
+                  name_ + ": " + Printable(array));
 }
 
 std::vector<double> Npz::Doubles(const std::string& array,

@@ -2,6 +2,7 @@
 #include "invsim/io/pc2.h"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -42,6 +43,13 @@ Header ParseHeader(std::string_view bytes, const std::string& name) {
                      " points, " + std::to_string(header.num_samples) +
                      " samples: expected 0 or more");
   }
+  if (!std::isfinite(header.start_frame) ||
+      !std::isfinite(header.frames_per_sample)) {
+    throw InputError(name + ": start frame " +
+                     std::to_string(header.start_frame) + ", " +
+                     std::to_string(header.frames_per_sample) +
+                     " frames per sample: expected finite numbers");
+  }
   return header;
 }
 
@@ -49,18 +57,20 @@ Header ParseHeader(std::string_view bytes, const std::string& name) {
 void CheckSize(const Header& header,
                std::size_t bytes,
                const std::string& name) {
-  // Two numbers below 2^31 and a 12: no overflow.
-  const std::uint64_t expected =
-      std::uint64_t{3 * sizeof(float)} * header.num_points * header.num_samples;
+  constexpr std::uint64_t kPoint = 3 * sizeof(float);
+  // Below 2^62, while its bytes may be more than 64 bits can count.
+  const std::uint64_t points =
+      std::uint64_t{1} * header.num_points * header.num_samples;
+  const bool fits = bytes % kPoint == 0 && bytes / kPoint == points;
   // No bytes would do for any number of samples of no points, or of points in
   // no samples; neither is written by anyone.
   const bool is_empty = header.num_samples == 0 && header.num_points == 0;
-  if (expected == bytes && (bytes > 0 || is_empty)) return;
+  if (fits && (bytes > 0 || is_empty)) return;
   throw InputError(name + ": " + std::to_string(bytes) +
                    " bytes after the header: expected " +
-                   std::to_string(expected) + " for " +
+                   std::to_string(kPoint) + " for each point of " +
                    std::to_string(header.num_samples) + " samples of " +
-                   std::to_string(header.num_points) + " points");
+                   std::to_string(header.num_points));
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ class PlyParser {
 
   void ParseVertices(const PlyElementHeader& element) {
     mesh_.vertices.resize(3, element.count);
-    mesh_.position_type = element.properties[element.Find("x")].type;
+    mesh_.position_type = PositionType(element);
     std::vector<Column> columns;
     for (const PlyPropertyHeader& property : element.properties) {
       columns.push_back(NewColumn(property));
@@ -92,6 +92,17 @@ class PlyParser {
       }
       body_->EndRow();
     }
+  }
+
+  // One type that holds x, y and z; a double holds them all.
+  static PlyType PositionType(const PlyElementHeader& element) {
+    const PlyType x = element.properties[element.Find("x")].type;
+    for (const char* axis : {"y", "z"}) {
+      if (element.properties[element.Find(axis)].type != x) {
+        return PlyType::kFloat64;
+      }
+    }
+    return x;
   }
 
   Column NewColumn(const PlyPropertyHeader& property) {
@@ -237,12 +248,7 @@ void AppendValue(double value, PlyType type, std::string* bytes) {
 void CheckProperties(const PlyMesh& mesh) {
   std::set<std::string> names = {"x", "y", "z"};
   for (const PlyProperty& property : mesh.properties) {
-    const bool is_word =
-        !property.name.empty() &&
-        std::all_of(property.name.begin(), property.name.end(), [](char c) {
-          return c > ' ' && c <= '~';
-        });
-    if (!is_word || !names.insert(property.name).second) {
+    if (!IsPlyWord(property.name) || !names.insert(property.name).second) {
       throw Error(ErrorKind::kInternal,
                   "PLY property " + Quoted(property.name) +
                       ": expected a word used once");

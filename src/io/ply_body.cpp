@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -71,7 +72,13 @@ class AsciiBody : public PlaceOfBody {
   }
   double Real(PlyType type, const std::string& name) override {
     if (IsInteger(type)) return static_cast<double>(Integer(type, name));
-    return scanner_.ToNumber(scanner_.Word(), name.c_str());
+    const std::string_view word = scanner_.Word();
+    const double value = scanner_.ToNumber(word, name.c_str());
+    if (type == PlyType::kFloat32 && std::isfinite(value) &&
+        std::abs(value) > std::numeric_limits<float>::max()) {
+      FailRange(word, type, name);
+    }
+    return value;
   }
   std::int64_t Integer(PlyType type, const std::string& name) override {
     const std::string_view word = scanner_.Word();
@@ -81,9 +88,7 @@ class AsciiBody : public PlaceOfBody {
     const int bits = 8 * PlySize(type) - (is_signed ? 1 : 0);
     const std::int64_t limit = std::int64_t{1} << bits;
     if (value >= limit || value < (is_signed ? -limit : 0)) {
-      scanner_.Fail(
-          Quoted(word),
-          std::string("expected a ") + PlyName(type) + " (" + name + ")");
+      FailRange(word, type, name);
     }
     return value;
   }
@@ -94,6 +99,14 @@ class AsciiBody : public PlaceOfBody {
   }
 
  private:
+  [[noreturn]] void FailRange(std::string_view word,
+                              PlyType type,
+                              const std::string& name) const {
+    scanner_.Fail(
+        Quoted(word),
+        std::string("expected a ") + PlyName(type) + " (" + name + ")");
+  }
+
   std::int64_t size_;
   TextScanner scanner_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/io/ply_header.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <sstream>
@@ -157,6 +158,9 @@ class HeaderParser {
         Fail(Quoted(words_[2]), "expected an integer type for a list's length");
       }
     }
+    if (!IsPlyWord(property.name)) {
+      Fail(Quoted(property.name), "expected a name without control characters");
+    }
     if (element.Find(property.name) >= 0) {
       Fail(Quoted(property.name), "expected each property of an element once");
     }
@@ -203,6 +207,12 @@ const char* PlyName(PlyType type) { return Row(type).name; }
 
 bool IsInteger(PlyType type) {
   return type != PlyType::kFloat32 && type != PlyType::kFloat64;
+}
+
+bool IsPlyWord(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) > ' ' && c != 0x7f;
+  });
 }
 
 int PlyElementHeader::Find(std::string_view property) const {

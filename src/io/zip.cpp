@@ -218,7 +218,7 @@ std::string_view ZipArchive::PackedBytes(const Entry& entry) const {
   Cursor in(bytes_, entry.header_offset, name_);
   if (in.Number(4) != kLocalHeader) {
     throw InputError(name_ + ": damaged zip archive: no header of " +
-                     entry.name);
+                     Printable(entry.name));
   }
   in.Take(22);
   const std::uint64_t name_size = in.Number(2);
@@ -230,8 +230,8 @@ std::string_view ZipArchive::PackedBytes(const Entry& entry) const {
 
 std::string ZipArchive::Extract(const std::string& member) const {
   const Entry* entry = Find(member);
-  if (!entry) throw InputError(name_ + ": has no member " + member);
-  const std::string where = name_ + ": " + member + ": ";
+  if (!entry) throw InputError(name_ + ": has no member " + Printable(member));
+  const std::string where = name_ + ": " + Printable(member) + ": ";
   if (entry->flags & kEncryptedFlag) {
     throw InputError(where + "is encrypted, which is not supported");
   }

@@ -14,6 +14,7 @@ namespace invsim {
 namespace {
 
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -89,6 +90,21 @@ TEST(ConfigTest, NamesAFileThatCannotBeRead) {
       EXPECT_THAT(error.what(), StartsWith(path + ": cannot be read"));
     }
   }
+}
+
+// A key of many parts is a table in a table in a table: parts beyond the stack
+// would end the process.
+TEST(ConfigTest, RefusesKeysThatAreNoOptions) {
+  std::string deep;
+  for (int i = 0; i < 16000; ++i) deep += "a.";
+  EXPECT_THAT(ErrorOf(deep + "a = 1"),
+              EndsWith("expected a key of at most 16 parts"));
+  EXPECT_EQ(
+      ErrorOf(deep + deep + "a = 1"),
+      "scene.toml: 64005 bytes: expected a configuration of at most 32768");
+  EXPECT_EQ(
+      ErrorOf("[s]\n\"a\\nb\" = 1"),
+      "scene.toml:2:1: key \"s.a\\u000ab\": expected no control character");
 }
 
 TEST(ConfigTest, ReadsAFile) {

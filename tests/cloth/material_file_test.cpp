@@ -57,6 +57,8 @@ TEST(ReadMaterial, ReadsAMeasuredFabric) {
 
 TEST(ReadMaterial, NamesWhatIsWrong) {
   EXPECT_EQ(ErrorOf("{\"density\": 0.2, \"stretc"), "not JSON from byte 25 on");
+  EXPECT_EQ(ErrorOf("{\"density\": 1e999}"),
+            "holds a number too large for 64 bits");
   EXPECT_EQ(ErrorOf("[1, 2]"),
             "expected a JSON object with density, stretching and bending");
   EXPECT_EQ(ErrorOf("{\"density\": 0.2}"), "stretching: missing");

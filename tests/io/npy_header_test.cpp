@@ -51,6 +51,21 @@ TEST(NpyHeader, HugeShapesAreRefusedWithoutMemory) {
       InputError);
 }
 
+TEST(NpyHeader, TooManyDimensionsAreRefused) {
+  const auto ones = [](int count) {
+    std::string shape = "(";
+    for (int i = 0; i < count; ++i) shape += "1,";
+    return shape + ")";
+  };
+  const auto parse = [&](int count) {
+    return ParseNpy(NpyBytes(Header("<i2", ones(count), true), "ab"), "a.npy");
+  };
+  EXPECT_EQ(parse(64).size(), 1u);
+  EXPECT_THAT([&] { parse(65); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("a.npy: array of more than 64 dimensions")));
+}
+
 TEST(NpyHeader, DamagedHeadersAreRefused) {
   const std::string good = NpyBytes(Header("<f8", "(1,)"), "12345678");
   for (std::size_t size = 0; size < good.size(); ++size) {

@@ -73,6 +73,20 @@ TEST(Npy, TextSurvives) {
   EXPECT_THAT(bytes.ToStrings(""), ElementsAre("male"));
 }
 
+// Bytes that are no UTF-8 (the second pair is a zero written too long) are
+// taken as Latin-1, so that every text can be written again.
+TEST(Npy, BytesThatAreNoUtf8AreLatin1) {
+  const std::string head =
+      "{'descr': '|S5', 'fortran_order': False, 'shape': (1,)}\n";
+  const std::string bytes = std::string("\x93NUMPY\1\0", 8) +
+                            static_cast<char>(head.size()) + '\0' + head +
+                            std::string("\xc3\xa9\xc0\x80\xff", 5);
+  const std::vector<std::string> texts =
+      ParseNpy(bytes, "a.npy").ToStrings("a");
+  EXPECT_EQ(texts[0], "\u00e9\u00c0\u0080\u00ff");
+  EXPECT_EQ(NpyArray::Text({1}, texts).ToStrings("a"), texts);
+}
+
 TEST(Npy, FortranOrderIsTurned) {
   // [[0 1 2] [3 4 5]] column by column.
   const auto array = ParseNpy(

@@ -72,23 +72,31 @@ TEST(Pc2Test, RefusesDamage) {
   EXPECT_THAT([&] { ParsePc2(bytes.substr(0, 31), "t.pc2"); },
               ThrowsInputError("t.pc2: expected a point cache"));
   EXPECT_THAT([&] { ParsePc2(bytes.substr(0, 103), "t.pc2"); },
-              ThrowsInputError("t.pc2: 71 bytes after the header: expected 72 "
-                               "for 3 samples of 2 points"));
+              ThrowsInputError("t.pc2: 71 bytes after the header: expected 12 "
+                               "for each point of 3 samples of 2"));
   EXPECT_THAT([&] { ParsePc2(bytes + "x", "t.pc2"); },
               ThrowsInputError("t.pc2: 73 bytes after the header"));
   std::string huge = bytes;
   std::memset(&huge[16], 0x7f, 4);
   std::memset(&huge[28], 0x7f, 4);
   EXPECT_THAT([&] { ParsePc2(huge, "t.pc2"); },
-              ThrowsInputError("for 2139062143 samples of 2139062143 points"));
+              ThrowsInputError("of 2139062143 samples of 2139062143"));
   std::string nothing = bytes.substr(0, 32);
   std::memset(&nothing[16], 0, 4);
   std::memset(&nothing[28], 0x7f, 4);
   EXPECT_THAT([&] { ParsePc2(nothing, "t.pc2"); },
-              ThrowsInputError("for 2139062143 samples of 0 points"));
+              ThrowsInputError("of 2139062143 samples of 0"));
   std::swap_ranges(&nothing[16], &nothing[20], &nothing[28]);
   EXPECT_THAT([&] { ParsePc2(nothing, "t.pc2"); },
-              ThrowsInputError("for 0 samples of 2139062143 points"));
+              ThrowsInputError("of 0 samples of 2139062143"));
+  // 12 bytes for each of so many points is 2^64 + 260.
+  std::string wrapped = bytes.substr(0, 32) + std::string(260, '\0');
+  const std::int32_t points = 889509163;
+  const std::int32_t samples = 1728176321;
+  std::memcpy(&wrapped[16], &points, 4);
+  std::memcpy(&wrapped[28], &samples, 4);
+  EXPECT_THAT([&] { ParsePc2(wrapped, "t.pc2"); },
+              ThrowsInputError("t.pc2: 260 bytes after the header"));
   std::string negative = bytes;
   negative[31] = '\x80';
   EXPECT_THAT([&] { ParsePc2(negative, "t.pc2"); },
@@ -97,6 +105,10 @@ TEST(Pc2Test, RefusesDamage) {
   version[12] = 2;
   EXPECT_THAT([&] { ParsePc2(version, "t.pc2"); },
               ThrowsInputError("t.pc2: version 2: expected 1"));
+  PointCache no_start = SomeCache();
+  no_start.start_frame = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT([&] { ParsePc2(FormatPc2(no_start), "t.pc2"); },
+              ThrowsInputError("expected finite numbers"));
   PointCache infinite = SomeCache();
   infinite.samples[2](0, 0) = std::numeric_limits<double>::infinity();
   EXPECT_THAT([&] { ParsePc2(FormatPc2(infinite), "t.pc2"); },

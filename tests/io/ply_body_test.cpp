@@ -95,7 +95,7 @@ TEST(PlyBodyTest, NamesThePlaceOfATruncation) {
 
 TEST(PlyBodyTest, KeepsAsciiToTheTypeAndTheLine) {
   const PlyHeader header = Header(PlyFormat::kAscii, 1, {PlyType::kUint8});
-  const auto body = OpenPlyBody("256 -1 2.5 7 8\n9", header, kName);
+  const auto body = OpenPlyBody("256 -1 2.5 -1e39 7 8\n9", header, kName);
   body->BeginElement(header.elements[0]);
   body->BeginRow();
   EXPECT_THAT([&] { body->Integer(PlyType::kUint8, "red"); },
@@ -104,6 +104,8 @@ TEST(PlyBodyTest, KeepsAsciiToTheTypeAndTheLine) {
               ThrowsInputError("t.ply:1: '-1': expected a uint (red)"));
   EXPECT_THAT([&] { body->Real(PlyType::kInt8, "red"); },
               ThrowsInputError("t.ply:1: '2.5': expected a whole number"));
+  EXPECT_THAT([&] { body->Real(PlyType::kFloat32, "x"); },
+              ThrowsInputError("t.ply:1: '-1e39': expected a float (x)"));
   EXPECT_EQ(body->Real(PlyType::kInt8, "red"), 7);
   EXPECT_THAT([&] { body->EndRow(); },
               ThrowsInputError("t.ply:1: '8': expected the end of the line"));

@@ -141,6 +141,15 @@ TEST(PlyTest, WritesPositionsAsFloatsUnlessAsked) {
   EXPECT_THAT(FormatPly(points), ::testing::Not(HasSubstr("face")));
 }
 
+TEST(PlyTest, AxesOfDifferentTypesAreWrittenAsDoubles) {
+  const PlyMesh mesh = ParsePly(
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar x\n"
+      "property float y\nproperty double z\nend_header\n1 300.5 1e-200\n",
+      "t");
+  EXPECT_EQ(mesh.position_type, PlyType::kFloat64);
+  EXPECT_EQ(ParsePly(FormatPly(mesh), "t").vertices, mesh.vertices);
+}
+
 TEST(PlyTest, WritesAFileThatReadsBack) {
   const std::string path = ::testing::TempDir() + "ply_test.ply";
   WritePly(path, SomeMesh());

@@ -45,7 +45,8 @@ class Config {
  public:
   // Both throw UsageError naming the file, and the line and column where TOML
   // is malformed or uses what options have no use for (dates, lists of
-  // tables, lists of lists).
+  // tables, lists of lists, control characters in keys, keys of more than 16
+  // parts, more than 32 KiB).
   static Config FromFile(const std::string& path);
   static Config FromText(std::string_view toml, const std::string& name);
 

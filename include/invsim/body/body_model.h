@@ -118,9 +118,12 @@ class PosedBody {
 //
 // Pickles are refused with the reason and the remedy. Throws InputError.
 BodyModel ReadBodyModel(const std::string& path);
+// The same of a file's bytes; `path` opens messages.
+BodyModel ParseBodyModel(std::string npz, const std::string& path);
 
 // Writes the same layout: 32-bit floats (as SMPL) and unsigned faces, with
 // `joint_names` for the reader. posedirs is left out if there are none.
+std::string FormatBodyModel(const BodyModel& body);
 void WriteBodyModel(const std::string& path, const BodyModel& body);
 
 // pelvis, left_hip, right_hip, spine1, ...: SMPL's order.

@@ -43,6 +43,8 @@ struct Motion {
 // 22 joints of the body; the two hand joints of SMPL stay straight. Nothing is
 // turned: see TurnWorld for files with z up. Throws InputError.
 Motion ReadMotion(const std::string& path);
+// The same of a file's bytes; `path` opens messages.
+Motion ParseMotion(std::string npz, const std::string& path);
 
 // Writes the same in 64 bits, with both names of the frame rate.
 void WriteMotion(const std::string& path, const Motion& motion);

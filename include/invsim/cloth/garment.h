@@ -7,6 +7,7 @@
 // pattern points.
 
 #include <string>
+#include <string_view>
 
 #include "invsim/base/types.h"
 
@@ -31,6 +32,8 @@ struct Garment {
 // and the offending vertex, edge or face (non-manifold, inconsistent
 // orientation, no area, inverted rest triangle, wrong unit).
 Garment ReadGarment(const std::string& path);
+// The same of a file's bytes; `path` opens messages.
+Garment ParseGarment(std::string_view obj, const std::string& path);
 
 // The checks of ReadGarment on data already in memory; `name` opens the
 // message.

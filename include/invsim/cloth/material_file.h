@@ -3,6 +3,7 @@
 #define INVSIM_CLOTH_MATERIAL_FILE_H_
 
 #include <string>
+#include <string_view>
 
 #include "invsim/cloth/material.h"
 
@@ -15,6 +16,8 @@ namespace invsim {
 // Other members are ignored. The material is named after the file. Throws
 // InputError naming the file and the member.
 Material ReadMaterial(const std::string& path);
+// The same of a file's bytes; `path` names the material and opens messages.
+Material ParseMaterial(std::string_view json, const std::string& path);
 
 }  // namespace invsim
 

@@ -35,7 +35,8 @@ struct PlyMesh {
   Points vertices;                      // 3 x N
   Faces faces;                          // 3 x F, possibly none
   std::vector<PlyProperty> properties;  // in the file's order, without x y z
-  PlyType position_type = PlyType::kFloat32;  // of x, y and z in the file
+  // Of x, y and z in the file; double where they differ.
+  PlyType position_type = PlyType::kFloat32;
 
   // The values of a property; null if there is none of that name.
   const VectorXd* Find(std::string_view name) const;

@@ -32,6 +32,8 @@ int PlySize(PlyType type);
 // The name written: char uchar short ushort int uint float double.
 const char* PlyName(PlyType type);
 bool IsInteger(PlyType type);
+// Whether a property may be called so: no blanks, no controls.
+bool IsPlyWord(std::string_view name);
 
 struct PlyPropertyHeader {
   std::string name;

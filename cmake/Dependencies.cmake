@@ -13,6 +13,11 @@ endforeach()
 if(NOT PointClouds_INCLUDE_DIR)
   message(FATAL_ERROR "The headers of PCL are missing; run ./run setup")
 endif()
+if(INVSIM_LIBFUZZER)
+  # toml++ compiled with us, so that the fuzzer sees into it.
+  set_property(TARGET tomlplusplus::tomlplusplus PROPERTY
+               INTERFACE_COMPILE_OPTIONS -DTOML_HEADER_ONLY=1)
+endif()
 if(INVSIM_BUILD_APPS)
   find_package(CLI11 REQUIRED)
 endif()

@@ -73,6 +73,50 @@ std::string Complaint(const toml::parse_error& error) {
   return text;
 }
 
+// The end of the text that begins with the quote at `at`.
+size_t EndOfText(std::string_view toml, size_t at) {
+  const char quote = toml[at];
+  const std::string triple(3, quote);
+  const bool is_long = toml.substr(at, 3) == triple;
+  for (at += is_long ? 3 : 1; at < toml.size(); ++at) {
+    if (toml[at] == '\\' && quote == '"') {
+      ++at;
+    } else if (is_long ? toml.substr(at, 3) == triple
+                       : toml[at] == quote || toml[at] == '\n') {
+      return at + (is_long ? 3 : 1);
+    }
+  }
+  return toml.size();
+}
+
+// The first byte beyond ASCII outside of texts and comments; npos: none. TOML
+// has no use for one there, and toml++ 3.3 runs into undefined behaviour where
+// it asks whether such a letter is a blank.
+size_t FindStrayLetter(std::string_view toml) {
+  size_t at = toml.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  while (at < toml.size()) {
+    if (static_cast<unsigned char>(toml[at]) >= 0x80) return at;
+    if (toml[at] == '"' || toml[at] == '\'') {
+      at = EndOfText(toml, at);
+    } else if (toml[at] == '#') {
+      at = std::min(toml.find('\n', at), toml.size());
+    } else {
+      ++at;
+    }
+  }
+  return std::string_view::npos;
+}
+
+void RefuseStrayLetters(std::string_view toml, const std::string& name) {
+  const size_t at = FindStrayLetter(toml);
+  if (at == std::string_view::npos) return;
+  const auto before = toml.substr(0, at);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  throw UsageError(name + ":" + std::to_string(line) + ":" +
+                   std::to_string(at - (before.rfind('\n') + 1) + 1) +
+                   ": letters beyond ASCII are expected in quotes");
+}
+
 // Calls `entry(key, node, origin)` for every value below `table` and
 // `opened(key, origin)` for every table.
 template <typename Entry, typename Opened>
@@ -105,6 +149,7 @@ std::optional<ConfigValue> ParseValue(const std::string& text) {
       text.starts_with('"') || text.starts_with('\'') || text.starts_with('[');
   if (text.find('\n') != std::string::npos) return std::nullopt;
   if (!quoted && text.find('#') != std::string::npos) return std::nullopt;
+  if (FindStrayLetter(text) != std::string::npos) return std::nullopt;
   try {
     const toml::table table = toml::parse("value = " + text);
     return FromToml(*table.get("value"));
@@ -181,6 +226,7 @@ Config Config::FromText(std::string_view toml, const std::string& name) {
     throw UsageError(name + ": " + std::to_string(toml.size()) +
                      " bytes: expected a configuration of at most " +
                      std::to_string(kLongestFile));
+  RefuseStrayLetters(toml, name);
   toml::table table;
   try {
     table = toml::parse(toml);

@@ -108,7 +108,9 @@ class PlyParser {
   Column NewColumn(const PlyPropertyHeader& property) {
     if (property.is_list) return {nullptr, 0};
     const int axis = AxisOf(property.name);
-    if (axis >= 0) return {mesh_.vertices.data() + axis, 3};
+    if (axis >= 0) {
+      return {num_vertices_ > 0 ? &mesh_.vertices(axis, 0) : nullptr, 3};
+    }
     mesh_.properties.push_back(
         {property.name, VectorXd(num_vertices_), property.type});
     return {mesh_.properties.back().values.data(), 1};

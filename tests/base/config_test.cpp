@@ -107,6 +107,20 @@ TEST(ConfigTest, RefusesKeysThatAreNoOptions) {
       "scene.toml:2:1: key \"s.a\\u000ab\": expected no control character");
 }
 
+TEST(ConfigTest, TakesLettersBeyondAsciiInTextsAndCommentsOnly) {
+  const std::string good =
+      "# h\u00f6he\n\"h\u00f6he\" = '\u00fc' # \u00e9\n"
+      "b = \"\"\"a\\\"\"\n\u20ac\"\"\"";
+  const Config config = Config::FromText("\ufeff" + good, "f.toml");
+  EXPECT_EQ(config.entries().at("h\u00f6he").value, ConfigValue("\u00fc"));
+  EXPECT_EQ(config.entries().at("b").value, ConfigValue("a\"\"\n\u20ac"));
+  EXPECT_EQ(ErrorOf(good + "\nc = \u02d41"),
+            "scene.toml:5:5: letters beyond ASCII are expected in quotes");
+  Config set;
+  set.Set("key", "h\u00f6he", "--set");
+  EXPECT_EQ(set.entries().at("key").value, ConfigValue("h\u00f6he"));
+}
+
 TEST(ConfigTest, ReadsAFile) {
   const std::string path = testing::TempDir() + "config_test.toml";
   std::ofstream(path) << "\n a = 1\n";

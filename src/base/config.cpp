@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "invsim/base/error.h"
+#include "toml_letters.h"
 
 namespace invsim {
 namespace {
@@ -21,11 +22,15 @@ std::string Where(const std::string& name, const toml::source_region& source) {
          std::to_string(source.begin.column);
 }
 
+bool IsControl(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
 std::optional<ConfigValue> ScalarFromToml(const toml::node& node) {
   if (const auto* v = node.as_boolean()) return v->get();
   if (const auto* v = node.as_integer()) return v->get();
   if (const auto* v = node.as_floating_point()) return v->get();
-  if (const auto* v = node.as_string()) return v->get();
+  if (const auto* v = node.as_string()) return Decoded(v->get());
   return std::nullopt;
 }
 
@@ -34,7 +39,7 @@ std::optional<ConfigValue> ListFromToml(const toml::array& array) {
   std::vector<std::string> texts;
   for (const toml::node& node : array) {
     if (const auto* text = node.as_string())
-      texts.push_back(text->get());
+      texts.push_back(Decoded(text->get()));
     else if (node.is_number())
       numbers.push_back(*node.value<double>());
     else
@@ -56,10 +61,6 @@ std::optional<ConfigValue> FromToml(const toml::node& node) {
 constexpr size_t kLongestFile = 32 << 10;
 constexpr int kMostParts = 16;
 
-bool IsControl(char c) {
-  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-}
-
 void CheckKey(const std::string& key, const std::string& origin) {
   if (std::any_of(key.begin(), key.end(), IsControl))
     throw UsageError(origin + ": key " + TomlText(ConfigValue(key)) +
@@ -73,50 +74,6 @@ std::string Complaint(const toml::parse_error& error) {
   return text;
 }
 
-// The end of the text that begins with the quote at `at`.
-size_t EndOfText(std::string_view toml, size_t at) {
-  const char quote = toml[at];
-  const std::string triple(3, quote);
-  const bool is_long = toml.substr(at, 3) == triple;
-  for (at += is_long ? 3 : 1; at < toml.size(); ++at) {
-    if (toml[at] == '\\' && quote == '"') {
-      ++at;
-    } else if (is_long ? toml.substr(at, 3) == triple
-                       : toml[at] == quote || toml[at] == '\n') {
-      return at + (is_long ? 3 : 1);
-    }
-  }
-  return toml.size();
-}
-
-// The first byte beyond ASCII outside of texts and comments; npos: none. TOML
-// has no use for one there, and toml++ 3.3 runs into undefined behaviour where
-// it asks whether such a letter is a blank.
-size_t FindStrayLetter(std::string_view toml) {
-  size_t at = toml.starts_with("\xef\xbb\xbf") ? 3 : 0;
-  while (at < toml.size()) {
-    if (static_cast<unsigned char>(toml[at]) >= 0x80) return at;
-    if (toml[at] == '"' || toml[at] == '\'') {
-      at = EndOfText(toml, at);
-    } else if (toml[at] == '#') {
-      at = std::min(toml.find('\n', at), toml.size());
-    } else {
-      ++at;
-    }
-  }
-  return std::string_view::npos;
-}
-
-void RefuseStrayLetters(std::string_view toml, const std::string& name) {
-  const size_t at = FindStrayLetter(toml);
-  if (at == std::string_view::npos) return;
-  const auto before = toml.substr(0, at);
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  throw UsageError(name + ":" + std::to_string(line) + ":" +
-                   std::to_string(at - (before.rfind('\n') + 1) + 1) +
-                   ": letters beyond ASCII are expected in quotes");
-}
-
 // Calls `entry(key, node, origin)` for every value below `table` and
 // `opened(key, origin)` for every table.
 template <typename Entry, typename Opened>
@@ -127,7 +84,7 @@ void Flatten(const toml::table& table,
              const Opened& opened,
              int parts = 1) {
   for (const auto& [key, node] : table) {
-    const std::string full = prefix + std::string(key.str());
+    const std::string full = prefix + Decoded(key.str());
     const std::string origin = Where(name, key.source());
     CheckKey(full, origin);
     if (parts > kMostParts)
@@ -149,9 +106,9 @@ std::optional<ConfigValue> ParseValue(const std::string& text) {
       text.starts_with('"') || text.starts_with('\'') || text.starts_with('[');
   if (text.find('\n') != std::string::npos) return std::nullopt;
   if (!quoted && text.find('#') != std::string::npos) return std::nullopt;
-  if (FindStrayLetter(text) != std::string::npos) return std::nullopt;
+  if (!LetterComplaint(text).empty()) return std::nullopt;
   try {
-    const toml::table table = toml::parse("value = " + text);
+    const toml::table table = toml::parse("value = " + Encoded(text));
     return FromToml(*table.get("value"));
   } catch (const toml::parse_error&) {
     return std::nullopt;
@@ -226,10 +183,12 @@ Config Config::FromText(std::string_view toml, const std::string& name) {
     throw UsageError(name + ": " + std::to_string(toml.size()) +
                      " bytes: expected a configuration of at most " +
                      std::to_string(kLongestFile));
-  RefuseStrayLetters(toml, name);
+  if (toml.starts_with("\xef\xbb\xbf")) toml.remove_prefix(3);
+  if (const std::string bad = LetterComplaint(toml); !bad.empty())
+    throw UsageError(name + ": " + bad);
   toml::table table;
   try {
-    table = toml::parse(toml);
+    table = toml::parse(Encoded(toml));
   } catch (const toml::parse_error& error) {
     throw UsageError(Where(name, error.source()) + ": " + Complaint(error));
   }

@@ -114,8 +114,15 @@ TEST(ConfigTest, TakesLettersBeyondAsciiInTextsAndCommentsOnly) {
   const Config config = Config::FromText("\ufeff" + good, "f.toml");
   EXPECT_EQ(config.entries().at("h\u00f6he").value, ConfigValue("\u00fc"));
   EXPECT_EQ(config.entries().at("b").value, ConfigValue("a\"\"\n\u20ac"));
-  EXPECT_EQ(ErrorOf(good + "\nc = \u02d41"),
-            "scene.toml:5:5: letters beyond ASCII are expected in quotes");
+  EXPECT_THAT(ErrorOf(good + "\nc = \u02d41"),
+              StartsWith("scene.toml:5:5: Error while parsing value"));
+  EXPECT_EQ(ErrorOf("a = '\xff'"), "scene.toml: expected text in UTF-8");
+  EXPECT_EQ(ErrorOf("a = '\xf8\x90\x80\x80'"),
+            "scene.toml: expected text in UTF-8");
+  EXPECT_EQ(ErrorOf("a = \"\\u0025\""),
+            "scene.toml: \\u0025: expected the letter % itself");
+  EXPECT_EQ(Config::FromText("a = '100 %41'", "f").entries().at("a").value,
+            ConfigValue("100 %41"));
   Config set;
   set.Set("key", "h\u00f6he", "--set");
   EXPECT_EQ(set.entries().at("key").value, ConfigValue("h\u00f6he"));

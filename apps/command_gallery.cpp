@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// invsim gallery: hard cases of the simulator, and whether it holds in them.
+// invsim gallery: hard cases of the simulator and of the fit, and whether they
+// hold in them.
 
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include "invsim/report/gallery_report.h"
 #include "invsim/report/hard_map_report.h"
 #include "invsim/report/run_folder.h"
+#include "invsim/study/hard_fit.h"
 #include "invsim/study/hard_map.h"
 #include "invsim/study/hard_scene.h"
 
@@ -51,7 +53,7 @@ class GalleryCommand : public Command {
  public:
   std::string name() const override { return "gallery"; }
   std::string doc() const override {
-    return "hard cases of the simulator, and whether it holds in them";
+    return "hard cases of simulator and fit, and whether they hold";
   }
   void AddArguments(CLI::App* app, KeyFlags* flags) override {
     flags->Add("--only", "gallery.only", "cases with this in their name");
@@ -64,37 +66,45 @@ class GalleryCommand : public Command {
   ExitCode Run(const CommandContext& context) override;
 
  private:
-  std::vector<const HardCase*> Chosen() const;
   ExitCode RunCases(const CommandContext& context, RunFolder* folder);
   ExitCode RunMap(const CommandContext& context, RunFolder* folder);
+  // Those of `cases` that are asked for.
+  template <typename Case>
+  std::vector<const Case*> Chosen(const std::vector<Case>& cases) const {
+    std::vector<const Case*> chosen;
+    for (const Case& c : cases)
+      if (c.name.find(options_.only) != std::string::npos) chosen.push_back(&c);
+    return chosen;
+  }
 
   GalleryOptions options_;
   bool force_ = false;
 };
 
-std::vector<const HardCase*> GalleryCommand::Chosen() const {
-  std::vector<const HardCase*> chosen;
-  for (const HardCase& c : HardCases())
-    if (c.name.find(options_.only) != std::string::npos) chosen.push_back(&c);
-  if (chosen.empty())
-    throw UsageError("gallery.only: no case has '" + options_.only +
-                     "' in its name; the first is " + HardCases()[0].name);
-  return chosen;
-}
-
 ExitCode GalleryCommand::RunCases(const CommandContext& context,
                                   RunFolder* folder) {
-  const std::vector<const HardCase*> chosen = Chosen();
+  const std::vector<const HardCase*> scenes = Chosen(HardCases());
+  const std::vector<const HardFitCase*> fits = Chosen(HardFitCases());
+  const int count = static_cast<int>(scenes.size() + fits.size());
+  if (count == 0)
+    throw UsageError("gallery.only: no case has '" + options_.only +
+                     "' in its name; the first is " + HardCases()[0].name);
   GalleryReport report;
   report.derivative = options_.derivative;
   {
     Progress progress(context.verbosity < 0 ? nullptr : &std::cerr,
                       StyleFor(STDERR_FILENO),
                       "cases",
-                      static_cast<int>(chosen.size()));
-    for (const HardCase* c : chosen) {
+                      count);
+    for (const HardCase* c : scenes) {
       if (InterruptRequested()) return ExitCode::kInterrupted;
       report.rows.push_back({*c, RunHardCase(*c, options_.derivative)});
+      progress.Advance(c->name);
+    }
+    for (const HardFitCase* c : fits) {
+      HardFitOutcome outcome = RunHardFitCase(*c);
+      if (InterruptRequested()) return ExitCode::kInterrupted;
+      report.fits.push_back({*c, std::move(outcome)});
       progress.Advance(c->name);
     }
   }

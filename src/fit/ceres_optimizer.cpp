@@ -40,9 +40,12 @@ class Recorder : public ceres::IterationCallback {
     record.step_norm = summary.step_norm;
     record.seconds = watch_.seconds();
     record.counts = objective_->counts();
-    if (record.successful) terms_ = objective_->terms();
+    if (record.successful) {
+      terms_ = objective_->terms();
+      kept_ = *objective_->x();
+      failed_at_success_ = record.counts.failed;
+    }
     record.terms = terms_;
-    if (record.successful) failed_at_success_ = record.counts.failed;
     records.push_back(record);
     if (monotone_) objective_->SetCostLimit(cost_);
     if (*observer_ && !(*observer_)(record)) {
@@ -57,6 +60,8 @@ class Recorder : public ceres::IterationCallback {
 
   // Failed evaluations up to the last successful step.
   int failed_at_success() const { return failed_at_success_; }
+  // The point after it.
+  const BodySequence& kept() const { return kept_; }
 
   std::vector<IterationRecord> records;
   bool stopped = false;    // by the observer
@@ -71,8 +76,18 @@ class Recorder : public ceres::IterationCallback {
   Stopwatch watch_;
   double cost_ = kNoLimit;
   CostTerms terms_;
+  BodySequence kept_;
   int failed_at_success_ = 0;
 };
+
+// In place: Ceres knows the blocks by their addresses.
+void Assign(const BodySequence& from, BodySequence* to) {
+  to->shape = from.shape;
+  for (int t = 0; t < from.num_frames(); ++t) {
+    to->poses[t] = from.poses[t];
+    to->translations[t] = from.translations[t];
+  }
+}
 
 Termination Classify(const ceres::Solver::Summary& summary,
                      const Objective& objective,
@@ -120,13 +135,18 @@ class CeresOptimizer : public Optimizer {
     ceres::Solver::Summary summary;
     ceres::Solve(solver, objective->problem(), &summary);
     objective->SetCostLimit(kNoLimit);
+    // Where Ceres fails it leaves the point it tried last.
+    if (!recorder.records.empty() && !summary.IsSolutionUsable())
+      Assign(recorder.kept(), objective->x());
 
     OptimizerSummary result;
     result.termination = Classify(summary, *objective, recorder);
-    result.reason = recorder.exhausted
-                        ? std::to_string(refused_steps_) +
-                              " steps in a row did not lower the cost."
-                        : summary.message;
+    result.reason = summary.message;
+    if (result.termination == Termination::kStalled)
+      result.reason = "The last steps could not be evaluated.";
+    else if (recorder.exhausted)
+      result.reason = std::to_string(refused_steps_) +
+                      " steps in a row did not lower the cost.";
     result.initial_cost = summary.initial_cost;
     result.final_cost = summary.final_cost;
     result.seconds = watch.seconds();

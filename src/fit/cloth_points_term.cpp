@@ -22,6 +22,8 @@ namespace invsim {
 namespace {
 
 constexpr double kOnSurface = 1e-9;  // m
+// Frames whose derivatives share an analysis of their matrices.
+constexpr int kFramesPerAnalysis = 2;
 
 enum class Side { kCloth, kSkin };
 
@@ -239,16 +241,14 @@ bool ClothPointsTerm::Impl::BlockOneFrame(int t,
   if (!sensitivity->Forward(record, touched, Columns(), body1, nullptr, &end))
     return false;
   *block = Block(t, &skin, &end.x);
-  return true;
+  return block->finite();
 }
 
 bool ClothPointsTerm::Impl::LinearizeOneFrame(std::vector<FrameBlock>* blocks) {
   const int n = static_cast<int>(frames.size());
   std::atomic<bool> good = true;
-  // One sensitivity object for a run of frames: its analysis is reused.
-  const int grain =
-      std::max(1, (n + 2 * NumThreads() - 1) / (2 * NumThreads()));
-  ParallelForPieces(n, grain, [&](int begin, int end) {
+  // One sensitivity object for a few frames: its analysis is reused.
+  ParallelForPieces(n, kFramesPerAnalysis, [&](int begin, int end) {
     Sensitivity sensitivity(rollout.simulator());
     for (int t = begin; t < end && good; ++t)
       if (!BlockOneFrame(t, &sensitivity, &(*blocks)[t])) good = false;
@@ -300,6 +300,7 @@ bool ClothPointsTerm::Impl::LinearizeCarried(std::vector<FrameBlock>* blocks) {
       return false;
     const MatrixXd skin = frames[t].body->Jacobian(every_vertex);
     (*blocks)[t] = Block(t, &skin, &columns.x);
+    if (!(*blocks)[t].finite()) return false;
   }
   return true;
 }

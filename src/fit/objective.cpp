@@ -204,6 +204,7 @@ void Objective::Impl::PrepareForEvaluation(bool jacobians, bool new_point) {
   if (!data.linearized) {
     data.usable = false;
     ++counts.failed;
+    ++counts.no_derivative;
   }
 }
 

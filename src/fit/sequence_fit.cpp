@@ -2,6 +2,7 @@
 #include "invsim/fit/sequence_fit.h"
 
 #include <limits>
+#include <sstream>
 
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
@@ -14,6 +15,52 @@ namespace invsim {
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+// Points closer together than this were not measured on anybody, m.
+constexpr double kSmallestExtent = 0.01;
+
+void CheckClouds(const std::vector<Points>& clouds) {
+  if (clouds.empty()) throw InputError("points: no frame");
+  for (size_t t = 0; t < clouds.size(); ++t) {
+    const std::string frame = "points of frame " + std::to_string(t);
+    if (clouds[t].cols() == 0) throw InputError(frame + ": none");
+    if (!clouds[t].allFinite()) throw InputError(frame + ": not all finite");
+    const Vector3d size =
+        clouds[t].rowwise().maxCoeff() - clouds[t].rowwise().minCoeff();
+    if (size.maxCoeff() >= kSmallestExtent) continue;
+    std::ostringstream text;
+    text << frame << ": all " << clouds[t].cols() << " within "
+         << 1000 * size.maxCoeff() << " mm; expected a person's";
+    throw InputError(text.str());
+  }
+}
+
+void CheckStart(const BodySequence& start, size_t frames) {
+  if (start.poses.size() != frames || start.translations.size() != frames)
+    throw InputError("the start has " + std::to_string(start.poses.size()) +
+                     " frames, expected one per point cloud, " +
+                     std::to_string(frames));
+  bool finite = start.shape.allFinite();
+  for (size_t t = 0; t < frames; ++t)
+    finite = finite && start.poses[t].allFinite() &&
+             start.translations[t].allFinite();
+  if (!finite) throw InputError("the start is not finite");
+}
+
+// `reason`, a sentence, with the most frequent cause of failures in it.
+std::string WithCause(std::string reason,
+                      const StepStats& stats,
+                      int no_derivative) {
+  std::string cause = no_derivative > 0 ? "there is no derivative" : "";
+  int most = no_derivative;
+  for (const auto& [why, count] : stats.failures) {
+    if (count <= most) continue;
+    most = count;
+    cause = why;
+  }
+  if (cause.empty()) return reason;
+  if (reason.ends_with('.')) reason.pop_back();
+  return reason + ": " + cause + ".";
+}
 
 class Fitter {
  public:
@@ -23,7 +70,10 @@ class Fitter {
       : scene_(scene),
         options_(options),
         observer_(observer),
-        checkpoint_(scene.checkpoint) {}
+        checkpoint_(scene.checkpoint) {
+    CheckClouds(scene.clouds);
+    if (scene.start) CheckStart(*scene.start, scene.clouds.size());
+  }
 
   FitResult Run();
 
@@ -168,12 +218,23 @@ void Fitter::Conclude() {
   result_.termination = Termination::kConverged;
   result_.reason = "The initialisation is done.";
   if (result_.optimizer) {
-    result_.termination = result_.optimizer->termination;
-    result_.reason = result_.optimizer->reason;
+    const OptimizerSummary& optimizer = *result_.optimizer;
+    result_.termination = optimizer.termination;
+    result_.reason = optimizer.reason;
+    if (!optimizer.usable() || optimizer.termination == Termination::kStalled)
+      result_.reason = WithCause(
+          optimizer.reason, result_.stats.step, optimizer.counts.no_derivative);
   }
   if (!result_.simulated) {
     result_.termination = Termination::kFailed;
     result_.reason = "The garment cannot be simulated on the body found.";
+    if (result_.reference)
+      result_.reason = WithCause(result_.reason, result_.stats.step, 0);
+    else if (result_.relaxation)
+      result_.reason =
+          WithCause("The garment cannot be dressed on the first body.",
+                    result_.relaxation->stats.step,
+                    0);
   }
   // Who stopped early was told to.
   const bool early = result_.termination == Termination::kInterrupted ||

@@ -64,6 +64,12 @@ void UndeterminedJoints(const PriorOptions& priors, Uncertainty* u) {
 Uncertainty FindUncertainty(const PriorOptions& priors, Objective* objective) {
   Uncertainty u;
   const BodySequence& x = *objective->x();
+  double cost = 0;
+  std::vector<double> gradient;
+  if (!objective->Evaluate(&cost, &gradient)) {
+    u.failure = "the cost has no derivative at the solution";
+    return u;
+  }
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::SPARSE_QR;
   options.num_threads = NumThreads();

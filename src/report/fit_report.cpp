@@ -69,6 +69,7 @@ Json StepsJson(const StepStats& s) {
   json["steps_missed"] = s.missed;
   json["steps_halved"] = s.halved;
   json["steps_failed"] = s.failed;
+  if (!s.failures.empty()) json["steps_failed_because"] = s.failures;
   json["worst_residual_weights"] = s.worst_residual;
   json["most_contacts"] = s.most_contacts;
   json["factorizations"] = s.factorizations;
@@ -97,6 +98,7 @@ Json OptimizerJson(const OptimizerSummary& s) {
   json["evaluations"] = s.counts.evaluations;
   json["evaluations_abandoned"] = s.counts.abandoned;
   json["evaluations_failed"] = s.counts.failed;
+  json["evaluations_without_derivative"] = s.counts.no_derivative;
   json["linearizations"] = s.counts.linearizations;
   if (!s.iterations.empty())
     json["cost_by_term"] = CostJson(s.iterations.back().terms);
@@ -162,6 +164,15 @@ class Lines {
   std::ostream* out_;
 };
 
+// "2 (the force of membrane is not finite)"
+std::string FailedSteps(const StepStats& s) {
+  std::string why;
+  for (const auto& [cause, count] : s.failures)
+    why += (why.empty() ? " (" : ", ") +
+           (s.failures.size() > 1 ? std::to_string(count) + ": " : "") + cause;
+  return std::to_string(s.failed) + why + (why.empty() ? "" : ")");
+}
+
 void InputText(const FitReport& r, std::ostream* out) {
   *out << "Input\n";
   Lines(out)
@@ -194,7 +205,12 @@ void StartText(const FitResult& r, std::ostream* out) {
   if (r.carried) lines.Add("garment", "carried to the estimated shape");
   if (!r.carry_note.empty())
     lines.Add("garment", "not carried to the estimated shape: " + r.carry_note);
-  if (r.relaxation)
+  if (r.relaxation && r.relaxation->status == RunStatus::kFailed)
+    lines.Add(
+        "relaxation",
+        "failed after " + std::to_string(r.relaxation->frames) +
+            " frames; failed steps: " + FailedSteps(r.relaxation->stats.step));
+  else if (r.relaxation)
     lines.Add("relaxation",
               std::to_string(r.relaxation->frames) + " frames, " +
                   (r.relaxation->at_rest ? "at rest" : "not at rest") +
@@ -216,7 +232,8 @@ void OptimizerText(const FitReport& report, std::ostream* out) {
       .Add("  failed",
            std::to_string(s.counts.failed) +
                (s.counts.failed > 0
-                    ? " (the simulation or its derivative was not finite)"
+                    ? " (no derivative at " +
+                          std::to_string(s.counts.no_derivative) + " of them)"
                     : ""))
       .Add("linearisations", std::to_string(s.counts.linearizations));
   if (report.result.recalled > 0)
@@ -246,7 +263,7 @@ void SimulationText(const FitReport& report, std::ostream* out) {
       .Add("steps", std::to_string(s.substeps))
       .Add("missed the tolerance", std::to_string(s.missed))
       .Add("halved", std::to_string(s.halved))
-      .Add("failed", std::to_string(s.failed))
+      .Add("failed", FailedSteps(s))
       .Add("worst residual", s.worst_residual, " of a vertex's weight")
       .Add("factorisations", std::to_string(s.factorizations))
       .Add("solves", std::to_string(s.solves));
@@ -293,7 +310,7 @@ void UncertaintyText(const Uncertainty& u, std::ostream* out) {
 }
 
 const char* Usable(const FitReport& report) {
-  return report.result.simulated ? "usable" : "not usable";
+  return report.result.usable() ? "usable" : "not usable";
 }
 
 }  // namespace
@@ -374,7 +391,7 @@ std::string FitJson(const FitReport& report) {
   json["schema"] = "invsim.fit";
   json["schema_version"] = kFitSchemaVersion;
   json["status"] = Name(r.termination);
-  json["usable"] = r.simulated;
+  json["usable"] = r.usable();
   json["verdict"] = Verdict(report);
   json["inputs"] = InputsJson(report);
   json["effects"] = EffectsJson(report.effects);

@@ -14,13 +14,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string Line(const char* format, auto... values) {
-  char line[200];
+  char line[400];
   std::snprintf(line, sizeof(line), format, values...);
   return line;
 }
 
 const char* Word(const GalleryRow& row) {
   if (row.known()) return "border";
+  if (!row.holds()) return "FAILS";
+  return row.outcome.refused ? "refused" : "holds";
+}
+
+const char* Word(const GalleryFitRow& row) {
   if (!row.holds()) return "FAILS";
   return row.outcome.refused ? "refused" : "holds";
 }
@@ -48,6 +53,117 @@ std::string TextRow(const GalleryRow& row) {
               std::max(o.energy, 0.0),
               derivative.c_str(),
               o.seconds);
+}
+
+std::string SceneTable(const std::vector<GalleryRow>& rows) {
+  std::string text = Line("%-31s %-7s %13s %8s %8s %8s %8s %7s\n",
+                          "case",
+                          "",
+                          "converged",
+                          "residual",
+                          "inside",
+                          "energy",
+                          "slope",
+                          "time");
+  text += Line("%-31s %-7s %13s %8s %8s %8s %8s %7s\n",
+               "",
+               "",
+               "steps",
+               "weights",
+               "mm",
+               "relative",
+               "relative",
+               "s");
+  for (const GalleryRow& row : rows) text += TextRow(row);
+  return text;
+}
+
+// "31 > 12", what is not known as "-".
+std::string FromTo(double from, double to) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? Line("%.3g", value) : std::string("-");
+  };
+  return number(from) + " > " + number(to);
+}
+
+std::string TextRow(const GalleryFitRow& row) {
+  const HardFitOutcome& o = row.outcome;
+  if (o.refused)
+    return Line("%-31s %-7s  %s\n",
+                row.hard.name.c_str(),
+                Word(row),
+                o.refusal.c_str());
+  const OptimizerSummary s =
+      o.result.optimizer ? *o.result.optimizer : OptimizerSummary();
+  const std::string cost =
+      s.iterations.empty() ? "-" : FromTo(s.initial_cost, s.final_cost);
+  const std::string error = FromTo(1e3 * o.start_error, 1e3 * o.body_error);
+  return Line("%-31s %-7s %-15s %19s %5d %6d %13s %7.2f\n",
+              row.hard.name.c_str(),
+              Word(row),
+              Name(o.result.termination),
+              cost.c_str(),
+              s.counts.evaluations,
+              s.counts.failed,
+              error.c_str(),
+              o.seconds);
+}
+
+std::string FitTable(const std::vector<GalleryFitRow>& rows) {
+  std::string text = Line("%-31s %-7s %-15s %19s %5s %6s %13s %7s\n",
+                          "case",
+                          "",
+                          "ended",
+                          "cost",
+                          "eval.",
+                          "failed",
+                          "body",
+                          "time");
+  text += Line("%-31s %-7s %-15s %19s %5s %6s %13s %7s\n",
+               "",
+               "",
+               "",
+               "from > to",
+               "",
+               "",
+               "mm",
+               "s");
+  for (const GalleryFitRow& row : rows) text += TextRow(row);
+  for (const GalleryFitRow& row : rows)
+    if (!row.outcome.refused)
+      text += row.hard.name + ": " + row.outcome.result.reason + "\n";
+  return text;
+}
+
+Json JsonRow(const GalleryFitRow& row) {
+  const HardFitOutcome& o = row.outcome;
+  Json json;
+  json["name"] = row.hard.name;
+  json["shows"] = row.hard.shows;
+  json["result"] = Word(row);
+  json["broken"] = o.broken;
+  if (o.refused) {
+    json["refusal"] = o.refusal;
+    return json;
+  }
+  json["status"] = Name(o.result.termination);
+  json["usable"] = o.result.usable();
+  json["reason"] = o.result.reason;
+  if (o.result.optimizer) {
+    const OptimizerSummary& s = *o.result.optimizer;
+    json["initial_cost"] = NumberOrNull(s.initial_cost);
+    json["final_cost"] = NumberOrNull(s.final_cost);
+    json["evaluations"] = s.counts.evaluations;
+    json["evaluations_failed"] = s.counts.failed;
+    json["evaluations_without_derivative"] = s.counts.no_derivative;
+  }
+  json["steps_failed_because"] = o.result.stats.step.failures;
+  json["substeps"] = o.result.stats.step.substeps;
+  json["substeps_missed"] = o.result.stats.step.missed;
+  json["start_body_v2v_mean_mm"] = NumberOrNull(1e3 * o.start_error);
+  json["body_v2v_mean_mm"] = NumberOrNull(1e3 * o.body_error);
+  json["seconds"] = o.seconds;
+  return json;
 }
 
 Json JsonRow(const GalleryRow& row) {
@@ -89,10 +205,14 @@ Json JsonRow(const GalleryRow& row) {
 }  // namespace
 
 bool Holds(const GalleryReport& report) {
-  return std::all_of(
-      report.rows.begin(), report.rows.end(), [](const GalleryRow& row) {
-        return row.holds() || row.known();
-      });
+  return std::all_of(report.rows.begin(),
+                     report.rows.end(),
+                     [](const GalleryRow& row) {
+                       return row.holds() || row.known();
+                     }) &&
+         std::all_of(report.fits.begin(),
+                     report.fits.end(),
+                     [](const GalleryFitRow& row) { return row.holds(); });
 }
 
 std::string GalleryVerdict(const GalleryReport& report) {
@@ -104,39 +224,32 @@ std::string GalleryVerdict(const GalleryReport& report) {
     if (!row.holds() && !row.known())
       failing += (failing.empty() ? "" : ", ") + row.hard.name;
   }
+  for (const GalleryFitRow& row : report.fits) {
+    holds += row.holds();
+    if (!row.holds()) failing += (failing.empty() ? "" : ", ") + row.hard.name;
+  }
   std::string text =
-      Line("%d of %d cases hold", holds, static_cast<int>(report.rows.size()));
+      Line("%d of %d cases hold",
+           holds,
+           static_cast<int>(report.rows.size() + report.fits.size()));
   if (known > 0) text += Line(", %d are at a known border", known);
   return text + (failing.empty() ? "." : "; failing: " + failing + ".");
 }
 
 std::string GalleryText(const GalleryReport& report) {
-  std::string text = Line("%-31s %-7s %13s %8s %8s %8s %8s %7s\n",
-                          "case",
-                          "",
-                          "converged",
-                          "residual",
-                          "inside",
-                          "energy",
-                          "slope",
-                          "time");
-  text += Line("%-31s %-7s %13s %8s %8s %8s %8s %7s\n",
-               "",
-               "",
-               "steps",
-               "weights",
-               "mm",
-               "relative",
-               "relative",
-               "s");
-  for (const GalleryRow& row : report.rows) text += TextRow(row);
-  text += "\n" + GalleryVerdict(report) + "\n";
+  std::string text;
+  if (!report.rows.empty()) text += SceneTable(report.rows) + "\n";
+  if (!report.fits.empty()) text += FitTable(report.fits) + "\n";
+  text += GalleryVerdict(report) + "\n";
   for (const GalleryRow& row : report.rows) {
     for (const Breach& broken : row.outcome.broken)
       text += row.hard.name + ": " + broken.text + "\n";
     if (row.known())
       text += row.hard.name + ": known: " + row.hard.border + "\n";
   }
+  for (const GalleryFitRow& row : report.fits)
+    for (const std::string& broken : row.outcome.broken)
+      text += row.hard.name + ": " + broken + "\n";
   return text;
 }
 
@@ -150,6 +263,9 @@ std::string GalleryJson(const GalleryReport& report) {
   json["cases"] = Json::array();
   for (const GalleryRow& row : report.rows)
     json["cases"].push_back(JsonRow(row));
+  json["fits"] = Json::array();
+  for (const GalleryFitRow& row : report.fits)
+    json["fits"].push_back(JsonRow(row));
   return json.dump(2) + "\n";
 }
 
@@ -158,6 +274,9 @@ std::string GalleryHtml(const GalleryReport& report) {
   page.title = "Hard cases";
   page.lead = GalleryVerdict(report);
   for (const GalleryRow& row : report.rows)
+    page.facts.emplace_back(row.hard.name,
+                            std::string(Word(row)) + ": " + row.hard.shows);
+  for (const GalleryFitRow& row : report.fits)
     page.facts.emplace_back(row.hard.name,
                             std::string(Word(row)) + ": " + row.hard.shows);
   page.details = GalleryText(report);

@@ -99,6 +99,7 @@ void StepStats::Add(const StepStats& o) {
   missed += o.missed;
   halved += o.halved;
   failed += o.failed;
+  for (const auto& [why, count] : o.failures) failures[why] += count;
   worst_residual = std::max(worst_residual, o.worst_residual);
   most_contacts = std::max(most_contacts, o.most_contacts);
   factorizations += o.factorizations;
@@ -125,6 +126,7 @@ struct Simulator::Impl {
   struct Outcome {
     bool finite = true;
     bool converged = true;
+    bool factored = true;  // that it is not finite has another reason
   };
 
   void DetectContacts(const Points& b0,
@@ -147,6 +149,9 @@ struct Simulator::Impl {
                   const Points& body1,
                   SubstepRecord* sub,
                   StepStats* stats);
+  std::string WhyNotFinite(const Points& body1,
+                           const Outcome& outcome,
+                           const SubstepRecord& sub) const;
   bool Interval(const Points& body0,
                 const Points& body1,
                 double duration,
@@ -332,7 +337,11 @@ Simulator::Impl::Outcome Simulator::Impl::Solve(SubstepRecord* sub,
   stats->slide += f.slide;
   stats->factor_seconds += f.factor_seconds;
   stats->solve_seconds += f.solve_seconds;
-  return {!f.factorization_failed && lin->v.allFinite(), f.converged};
+  // The residual is infinite where the problem itself is not finite; the
+  // velocity is then still the one it started with.
+  const bool finite = !f.factorization_failed && std::isfinite(f.residual) &&
+                      lin->v.allFinite();
+  return {finite, f.converged, !f.factorization_failed};
 }
 
 // Linearises and solves. If that was done before with fewer contacts, it
@@ -365,7 +374,7 @@ Simulator::Impl::Outcome Simulator::Impl::Iterate(SubstepRecord* sub,
       lin.forces = StartForces(*sub);
     }
     const Outcome o = Solve(sub, &lin, stats);
-    if (!o.finite) return {false, false};
+    if (!o.finite) return {false, false, o.factored};
     outcome.converged = o.converged;
     const double change = (lin.v - Stacked(y.v)).lpNorm<Eigen::Infinity>();
     Stacked(y.v) = lin.v;
@@ -476,6 +485,21 @@ double Simulator::Impl::Gain(const SubstepRecord& sub) const {
   return (after - before - given) / turnover;
 }
 
+// The culprit, sought where the sub-step started.
+std::string Simulator::Impl::WhyNotFinite(const Points& body1,
+                                          const Outcome& outcome,
+                                          const SubstepRecord& sub) const {
+  if (!body1.allFinite()) return "the body is not finite";
+  for (size_t k = 0; k < setup.effects.size(); ++k) {
+    Points force = Points::Zero(3, pattern->size);
+    setup.effects[k]->AddForce(sub.start, &force);
+    if (!force.allFinite())
+      return "the force of " + names[k] + " is not finite";
+  }
+  return outcome.factored ? "the solution is not finite"
+                          : "the system matrix is not positive definite";
+}
+
 bool Simulator::Impl::Interval(const Points& body0,
                                const Points& body1,
                                double duration,
@@ -522,6 +546,7 @@ bool Simulator::Impl::Interval(const Points& body0,
   ++stats->substeps;
   if (!outcome.finite) {
     ++stats->failed;
+    ++stats->failures[WhyNotFinite(body1, outcome, sub)];
     return false;
   }
   if (!outcome.converged) ++stats->missed;
@@ -604,8 +629,10 @@ bool Simulator::Advance(const Points& body0,
                     s.setup.step.max_halvings,
                     &moved,
                     stats,
-                    record))
+                    record)) {
+      Forget();  // forces of sub-steps that are not kept
       return false;
+    }
   }
   *state = std::move(moved);
   s.last_x = state->x;

@@ -323,6 +323,40 @@ TEST_F(FitCommandTest, RefusesAnUnwritableFolder) {
                 HasSubstr("cannot be used for the results"));
 }
 
+// What a report says but for the time it took.
+nlohmann::json Timeless(nlohmann::json report) {
+  report.erase("wall_seconds");
+  report.erase("seconds_by_part");
+  return report;
+}
+
+// The same seed gives the same numbers, to the last digit.
+TEST_F(FitCommandTest, RepeatsItself) {
+  const std::string line = "fit --force " + Arguments("--threads 2 --frames 3");
+  ASSERT_EQ(RunCommand(line).exit_code, kStoppedEarly);
+  const nlohmann::json first = Timeless(Report());
+  ASSERT_TRUE(first["optimization"]["final_cost"].is_number());
+  ASSERT_EQ(RunCommand(line).exit_code, kStoppedEarly);
+  EXPECT_EQ(Timeless(Report()), first)
+      << nlohmann::json::diff(first, Timeless(Report()));
+}
+
+// And so it does on another number of threads: loops are cut by size alone.
+TEST_F(FitCommandTest, DoesNotDependOnTheNumberOfThreads) {
+  nlohmann::json reports[2];
+  for (const int threads : {1, 2}) {
+    const CommandResult result =
+        RunCommand("fit --force " + Arguments("--frames 3 --threads " +
+                                              std::to_string(threads)));
+    ASSERT_EQ(result.exit_code, kStoppedEarly) << result.err;
+    reports[threads - 1] = Timeless(Report());
+    EXPECT_EQ(reports[threads - 1]["inputs"]["threads"], threads);
+    reports[threads - 1]["inputs"].erase("threads");
+  }
+  EXPECT_EQ(reports[0], reports[1])
+      << nlohmann::json::diff(reports[0], reports[1]);
+}
+
 // Body and cloth of a run.
 struct Outcome {
   explicit Outcome(const fs::path& run)

@@ -107,6 +107,24 @@ TEST_P(EveryOptimizer, CallsAStallAStall) {
   EXPECT_EQ(summary.termination, Termination::kStalled) << summary.reason;
 }
 
+// A better point without a derivative is no point to go on from, and none to
+// end at: the one kept is that of the cost reported.
+TEST_P(EveryOptimizer, KeepsThePointBeforeOneWithoutDerivative) {
+  ToyTerm term(Truth(3));
+  term.cliff = 0.6;
+  BodySequence x = Start(3);
+  Objective objective(NoPriors(), {}, &term, &x);
+  const OptimizerSummary summary =
+      Make(GetParam(), Settings() + "iterations = 300\n")->Run(&objective, {});
+  EXPECT_LE(x.translations[0][0], 0.6);
+  EXPECT_GT(summary.counts.no_derivative, 0);
+  EXPECT_EQ(summary.counts.no_derivative, summary.counts.failed);
+  EXPECT_EQ(summary.termination, Termination::kStalled) << summary.reason;
+  double cost = 0;
+  ASSERT_TRUE(objective.Evaluate(&cost, nullptr));
+  EXPECT_NEAR(cost, summary.final_cost, 1e-9 * cost);
+}
+
 TEST_P(EveryOptimizer, FailsIfTheStartCannotBeEvaluated) {
   ToyTerm term(Truth(3));
   term.wall = -1;

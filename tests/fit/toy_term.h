@@ -33,12 +33,15 @@ class ToyTerm : public DataTerm {
 
   bool Linearize(std::vector<FrameBlock>* blocks) override {
     blocks->clear();
+    if (x_.translations[0][0] > cliff) return false;
     for (int t = 0; t < num_frames(); ++t) blocks->push_back(Frame(t, true));
     return true;
   }
 
   // Points with a larger x of the first translation cannot be evaluated.
   double wall = std::numeric_limits<double>::infinity();
+  // Beyond this there is a cost, but no derivative.
+  double cliff = std::numeric_limits<double>::infinity();
   int evaluations = 0;
 
  private:

@@ -3,19 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <cmath>
 #include <set>
 
+#include "test_name.h"
+
 namespace invsim {
 namespace {
-
-std::string TestName(const testing::TestParamInfo<HardCase>& info) {
-  std::string name = info.param.name;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
-}
 
 class HardSceneTest : public testing::TestWithParam<HardCase> {};
 
@@ -37,7 +31,7 @@ TEST_P(HardSceneTest, Holds) {
 INSTANTIATE_TEST_SUITE_P(Gallery,
                          HardSceneTest,
                          testing::ValuesIn(HardCases()),
-                         TestName);
+                         TestName<HardCase>);
 
 TEST(HardCases, NamesAreUnique) {
   std::set<std::string> names;

@@ -170,6 +170,73 @@ TEST(Simulator, AFailureLeavesTheStateAlone) {
   EXPECT_FALSE(simulator.Advance(body, body, kFrame, &state, &stats));
   EXPECT_EQ(state.x, before);
   EXPECT_GT(stats.failed, 0);
+  int reasons = 0;
+  for (const auto& [why, count] : stats.failures) reasons += count;
+  EXPECT_EQ(reasons, stats.failed);
+}
+
+// A force that is not a number once it is told so.
+class BrokenForce : public Effect {
+ public:
+  explicit BrokenForce(const bool* broken) : broken_(broken) {}
+  std::string name() const override { return "broken"; }
+  bool conservative() const override { return false; }
+  bool stiffness_is_approximate() const override { return false; }
+  void AddStencils(BlockPatternBuilder*) const override {}
+  void Bind(const BlockPattern&) override {}
+  double Energy(const ClothState&) const override { return 0; }
+  void AddForce(const ClothState&, Points* force) const override {
+    if (*broken_) (*force)(1, 0) = std::numeric_limits<double>::quiet_NaN();
+  }
+  void AddStiffness(const ClothState&,
+                    double,
+                    double,
+                    BlockMatrix*) const override {}
+  void AddTangent(const ClothState&,
+                  const Points&,
+                  const Points&,
+                  double,
+                  BlockMatrix*,
+                  BlockMatrix*) const override {}
+
+ private:
+  const bool* broken_;
+};
+
+// In contact, where the solver could fall back on the velocity it began with:
+// a force that is no number is a failure and not a step that missed its
+// tolerance, it is named, and nothing of it is left afterwards.
+TEST(Simulator, AForceThatIsNoNumberFailsAndIsForgotten) {
+  const Garment garment = Square(6, 0.3, 0.002);
+  const TriangleMesh ball = Icosphere(0.1, 3);
+  bool broken = false;
+  Points end[2];
+  for (const bool fails : {false, true}) {
+    SimulatorSetup setup = ClothSetup(garment, ball);
+    setup.effects.push_back(std::make_unique<BrokenForce>(&broken));
+    Simulator simulator(std::move(setup));
+    ClothState state = AtRest(garment);
+    StepStats stats;
+    const auto advance = [&] {
+      return simulator.Advance(
+          ball.vertices, ball.vertices, kFrame, &state, &stats);
+    };
+    for (int frame = 0; frame < 10; ++frame) ASSERT_TRUE(advance());
+    ASSERT_GT(stats.most_contacts, 0);
+    if (!fails) {
+      simulator.Forget();
+    } else {
+      broken = true;
+      EXPECT_FALSE(advance());
+      broken = false;
+      EXPECT_EQ(stats.failed, 1);
+      EXPECT_EQ(stats.missed, 0);
+      EXPECT_EQ(stats.failures.count("the force of broken is not finite"), 1u);
+    }
+    for (int frame = 0; frame < 3; ++frame) ASSERT_TRUE(advance());
+    end[fails] = state.x;
+  }
+  EXPECT_EQ(end[0], end[1]);
 }
 
 // The paper's toy (fig. 5): cloth falls on a cube whose tilt is the only

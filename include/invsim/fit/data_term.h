@@ -32,7 +32,7 @@ class DataTerm {
                               std::vector<double>* costs) = 0;
 
   // The frames' blocks, by (beta, theta_t, t_t), at the point evaluated last.
-  // False if a derivative does not exist there.
+  // False if a derivative does not exist there, or is not finite.
   virtual bool Linearize(std::vector<FrameBlock>* blocks) = 0;
 };
 

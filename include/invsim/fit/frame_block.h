@@ -18,7 +18,7 @@
 // triangle does not carry of the cost is a constant of the Gauss-Newton model:
 // `offset` = 2 cost - |r'|^2, which may have either sign.
 
-#include <cstdint>
+#include <cmath>
 
 #include "invsim/base/types.h"
 
@@ -33,6 +33,9 @@ struct FrameBlock {
   VectorXd residual;  // p, or empty: cost only
   MatrixXd jacobian;  // p x p, upper triangle
   double offset() const { return 2 * cost - residual.squaredNorm(); }
+  bool finite() const {
+    return std::isfinite(cost) && residual.allFinite() && jacobian.allFinite();
+  }
 };
 
 class BlockCompressor {

@@ -40,6 +40,7 @@ struct ObjectiveCounts {
   int linearizations = 0;  // of the data term
   int abandoned = 0;       // evaluations that were given up as worse
   int failed = 0;          // evaluations that were impossible
+  int no_derivative = 0;   // of these: there was a cost, but no derivative
 };
 
 struct CostTerms {

@@ -109,10 +109,14 @@ struct FitResult {
   std::optional<Uncertainty> uncertainty;
   int recalled = 0;  // answers found in the checkpoint
   FitSeconds seconds;
+
+  bool usable() const {
+    return simulated && termination != Termination::kFailed;
+  }
 };
 
-// Throws InputError for points that cannot be a person's, or a checkpoint that
-// cannot be written.
+// Throws InputError for points that cannot be a person's, a start that is not
+// finite or not of as many frames, or a checkpoint that cannot be written.
 FitResult FitSequence(const FitScene& scene,
                       const FitOptions& options,
                       const FitObserver& observer);

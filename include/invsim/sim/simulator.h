@@ -17,6 +17,7 @@
 // `max_halvings` times; if that does not help it is taken as it is, counted
 // and reported.
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ struct StepStats {
   int missed = 0;  // sub-steps that stayed above the contact tolerance
   int halved = 0;  // sub-steps replaced by two halves
   int failed = 0;  // sub-steps with no result at all (not finite)
+  // Why they failed, in words, and how many for that reason.
+  std::map<std::string, int> failures;
   double worst_residual = 0;  // weights; over all sub-steps
   int most_contacts = 0;
   int factorizations = 0;
@@ -112,8 +115,8 @@ class Simulator {
   bool depends_on_velocity() const;
 
   // Moves `state` by `duration` seconds while the body moves from body0 to
-  // body1. If `record` is given it is filled. False if the state became not
-  // finite; `state` is then unchanged.
+  // body1. If `record` is given it is filled. False if there is no finite
+  // result (stats->failures says why); `state` is then unchanged.
   bool Advance(const Points& body0,
                const Points& body1,
                double duration,

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/study/hard_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "invsim/report/fit_report.h"
+#include "test_name.h"
+
+namespace invsim {
+namespace {
+
+class HardFitTest : public testing::TestWithParam<HardFitCase> {};
+
+TEST_P(HardFitTest, Holds) {
+  const HardFitOutcome outcome = RunHardFitCase(GetParam());
+  EXPECT_EQ(outcome.refused, GetParam().refused) << outcome.refusal;
+  for (const std::string& broken : outcome.broken)
+    ADD_FAILURE() << GetParam().name << ": " << broken;
+  if (outcome.refused) return;
+  // What a user is told.
+  FitReport report;
+  report.result = outcome.result;
+  const std::string text = FitText(report);
+  EXPECT_NE(text.find(outcome.result.reason), std::string::npos);
+  for (const auto& [why, count] : outcome.result.stats.step.failures)
+    EXPECT_NE(text.find(why), std::string::npos) << why;
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery,
+                         HardFitTest,
+                         testing::ValuesIn(HardFitCases()),
+                         TestName<HardFitCase>);
+
+TEST(HardFitCases, NamesAreUnique) {
+  std::set<std::string> names;
+  for (const HardFitCase& hard : HardFitCases())
+    EXPECT_TRUE(names.insert(hard.name).second) << hard.name;
+}
+
+}  // namespace
+}  // namespace invsim

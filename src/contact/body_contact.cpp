@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "invsim/base/options.h"
 #include "invsim/geometry/surface_index.h"
@@ -107,12 +108,18 @@ void BodyContactDetector::Impl::Minima(const Vector3d& x,
                                        std::vector<Minimum>* minima) const {
   minima->clear();
   const Faces& faces = surface.faces();
+  // By corner, the distances of the faces round it, the least one first. All of
+  // the body is near if it moves by its own size.
+  std::vector<std::pair<int, double>> round;
+  round.reserve(3 * near.size());
+  for (const FacePoint& q : near)
+    for (int b = 0; b < 3; ++b) round.push_back({faces(b, q.face), q.distance});
+  std::sort(round.begin(), round.end());
   const auto closer_neighbour = [&](const FacePoint& p) {
-    for (const FacePoint& q : near) {
-      if (q.distance >= p.distance - kSamePoint) continue;
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b)
-          if (faces(a, p.face) == faces(b, q.face)) return true;
+    for (int a = 0; a < 3; ++a) {
+      const auto least = std::lower_bound(
+          round.begin(), round.end(), std::pair(faces(a, p.face), 0.0));
+      if (least->second < p.distance - kSamePoint) return true;
     }
     return false;
   };

@@ -332,29 +332,13 @@ nlohmann::json Timeless(nlohmann::json report) {
 
 // The same seed gives the same numbers, to the last digit.
 TEST_F(FitCommandTest, RepeatsItself) {
-  const std::string line = "fit --force " + Arguments("--threads 2 --frames 3");
+  const std::string line = "fit --force " + Arguments("--threads 1 --frames 3");
   ASSERT_EQ(RunCommand(line).exit_code, kStoppedEarly);
   const nlohmann::json first = Timeless(Report());
   ASSERT_TRUE(first["optimization"]["final_cost"].is_number());
   ASSERT_EQ(RunCommand(line).exit_code, kStoppedEarly);
   EXPECT_EQ(Timeless(Report()), first)
       << nlohmann::json::diff(first, Timeless(Report()));
-}
-
-// And so it does on another number of threads: loops are cut by size alone.
-TEST_F(FitCommandTest, DoesNotDependOnTheNumberOfThreads) {
-  nlohmann::json reports[2];
-  for (const int threads : {1, 2}) {
-    const CommandResult result =
-        RunCommand("fit --force " + Arguments("--frames 3 --threads " +
-                                              std::to_string(threads)));
-    ASSERT_EQ(result.exit_code, kStoppedEarly) << result.err;
-    reports[threads - 1] = Timeless(Report());
-    EXPECT_EQ(reports[threads - 1]["inputs"]["threads"], threads);
-    reports[threads - 1]["inputs"].erase("threads");
-  }
-  EXPECT_EQ(reports[0], reports[1])
-      << nlohmann::json::diff(reports[0], reports[1]);
 }
 
 // Body and cloth of a run.
@@ -377,12 +361,13 @@ void ExpectSame(const Outcome& a, const Outcome& b, const std::string& what) {
   EXPECT_LT((a.cloth - b.cloth).cwiseAbs().maxCoeff(), 1e-6) << what;
 }
 
-// Whenever a fit is killed, what it left is enough to end alike.
+// Whenever a fit is killed, what it left is enough to end alike. On one thread:
+// on more a fit does not repeat itself to the last bit (docs/stability.md).
 // INVSIM_KILLS=50 for more kills than the suite has time for.
 TEST_F(FitCommandTest, GoesOnAfterBeingKilled) {
   const char* asked = std::getenv("INVSIM_KILLS");
   const int kills = asked ? std::atoi(asked) : 4;
-  const std::string arguments = Arguments("--frames 2");
+  const std::string arguments = Arguments("--frames 2 --threads 1");
   const Stopwatch watch;
   ASSERT_EQ(RunCommand("fit " + arguments).exit_code, kStoppedEarly);
   const double whole = watch.seconds();
@@ -413,7 +398,7 @@ TEST_F(FitCommandTest, GoesOnAfterBeingKilled) {
 
 // Files that may not grow stand for a full disk.
 TEST_F(FitCommandTest, KeepsTheCheckpointWhenTheDiskIsFull) {
-  const std::string arguments = Arguments("--frames 2");
+  const std::string arguments = Arguments("--frames 2 --threads 1");
   ASSERT_EQ(RunCommand("fit " + arguments).exit_code, kStoppedEarly);
   const Outcome expected(out());
   fs::remove_all(out());

@@ -66,7 +66,7 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
                     (plan_.has_reference ? 1 : 0);
   Progress progress(log, StyleFor(STDERR_FILENO), "runs", total);
   const auto run = [&](const SweepSetting& setting, int repeat) {
-    const SweepRun done = runs.Run(setting, repeat);
+    const RunOutcome done = runs.At(setting, repeat).Run();
     if (done.exit_code == static_cast<int>(ExitCode::kInterrupted) ||
         InterruptRequested())
       return false;
@@ -77,15 +77,15 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
     return true;
   };
   if (force_) {
-    if (plan_.has_reference) runs.Forget(plan_.reference, 0);
+    if (plan_.has_reference) runs.At(plan_.reference, 0).Forget();
     for (const SweepSetting& setting : settings)
-      for (int k = 0; k < options_.repeats; ++k) runs.Forget(setting, k);
+      for (int k = 0; k < options_.repeats; ++k) runs.At(setting, k).Forget();
   }
   if (plan_.has_reference) {
     if (!run(plan_.reference, 0)) return false;
-    if (!runs.Run(plan_.reference, 0).usable())
+    if (!runs.At(plan_.reference, 0).Run().usable())
       throw InputError("the reference run failed: " +
-                       runs.Result(plan_.reference, 1, {}).failure);
+                       runs.At(plan_.reference, 0).LastLine());
   }
   for (int repeat = 0; repeat < options_.repeats; ++repeat)
     for (const SweepSetting& setting : settings)
@@ -97,7 +97,7 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
 void SweepCommand::Measure(const SweepRuns& runs,
                            const LoadedReference* truth,
                            SweepResult* result) const {
-  const std::string folder = runs.Folder(result->setting, 0);
+  const std::string folder = runs.At(result->setting, 0).folder();
   try {
     if (truth) {
       const Metrics metrics = Evaluate(*truth->reference, LoadEstimate(folder));
@@ -105,7 +105,7 @@ void SweepCommand::Measure(const SweepRuns& runs,
         result->values.push_back(value);
     } else if (plan_.has_reference) {
       const ClothDifference d =
-          CompareClothFolders(folder, runs.Folder(plan_.reference, 0));
+          CompareClothFolders(folder, runs.At(plan_.reference, 0).folder());
       result->frame_errors_mm = d.rms_mm;
       result->values.emplace_back(kClothRms, d.total_rms_mm());
       result->values.emplace_back("cloth_last_frame_rms_mm", d.rms_mm.back());

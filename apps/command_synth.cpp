@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // invsim synth: writes what is embedded to files, to start from or to look at,
-// and makes sequences of measured points with known truth.
+// and makes sequences of measured points with known truth, one or a grid.
 
 #include <unistd.h>
 
@@ -19,9 +19,12 @@
 #include "invsim/cloth/named_materials.h"
 #include "invsim/report/chart.h"
 #include "invsim/study/clothed_sequence.h"
+#include "synth_grid.h"
 
 namespace invsim {
 namespace {
+
+constexpr char kGrid[] = "grid";
 
 struct SynthOptions {
   std::string body = "mannequin";
@@ -45,7 +48,7 @@ class SynthCommand : public Command {
   std::string name() const override { return "synth"; }
   std::string doc() const override {
     return "write the embedded body, a garment made to measure, a motion, or "
-           "a sequence of measured points with its truth";
+           "sequences of measured points with their truth";
   }
   void AddArguments(CLI::App* app, KeyFlags* flags) override;
   void AddOptions(OptionTable* table) override {
@@ -53,6 +56,9 @@ class SynthCommand : public Command {
     Describe(table, &physics_);
     table->AddSection("relaxation", &sequence_.relaxation);
     table->AddSection("measurement", &sequence_.measurement);
+  }
+  void TakeConfig(Config* config) override {
+    if (what_ == kGrid) grid_.TakeConfig(config);
   }
   ExitCode Run(const CommandContext& context) override;
 
@@ -67,11 +73,14 @@ class SynthCommand : public Command {
   SynthOptions options_;
   SceneOptions physics_;
   ClothedSequenceOptions sequence_;
+  SynthGrid grid_;
   bool force_ = false;
 };
 
 void SynthCommand::AddArguments(CLI::App* app, KeyFlags* flags) {
-  app->add_option("WHAT", what_, "body, garment, motion or sequence")
+  app->add_option("WHAT",
+                  what_,
+                  "body, garment, motion, sequence or grid (of sequences)")
       ->required();
   app->add_option("--name", name_, "of the garment or the motion")
       ->option_text("NAME");
@@ -92,6 +101,7 @@ std::string SynthCommand::DefaultFile() const {
   if (what_ == "body") return "mannequin.npz";
   if (what_ == "garment") return options_.garment + ".obj";
   if (what_ == "sequence") return "invsim_sequence";
+  if (what_ == kGrid) return "invsim_sequences";
   return options_.motion.name + ".npz";
 }
 
@@ -175,13 +185,16 @@ ExitCode SynthCommand::WriteSequence(const CommandContext& context) {
 
 ExitCode SynthCommand::Run(const CommandContext& context) {
   const std::vector<std::string> kinds = {
-      "body", "garment", "motion", "sequence"};
+      "body", "garment", "motion", "sequence", kGrid};
   if (std::find(kinds.begin(), kinds.end(), what_) == kinds.end())
     throw UsageError(UnknownName("kind", what_, kinds));
   if (!name_.empty() && what_ == "garment") options_.garment = name_;
   if (!name_.empty() && what_ == "motion") options_.motion.name = name_;
   if (what_ == "sequence") return WriteSequence(context);
   const std::string path = context.out.empty() ? DefaultFile() : context.out;
+  if (what_ == kGrid)
+    return grid_.Run(
+        path, force_, &std::cout, context.verbosity < 0 ? nullptr : &std::cerr);
   if (std::filesystem::exists(path) && !force_)
     throw UsageError(path + ": exists; choose another --out, or --force");
   const std::string done = Write(path);

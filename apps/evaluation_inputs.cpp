@@ -85,7 +85,7 @@ LoadedReference LoadReference(const std::string& truth,
   const fs::path folder = folder_given ? given : given.parent_path();
   const Json scene = ReadJson(folder / "scene.json");
   LoadedReference loaded;
-  loaded.garment = scene.value("garment", "");
+  loaded.garment = fs::path(scene.value("garment", "")).stem().string();
   loaded.body = std::make_unique<BodyModel>(
       LoadBody(body.empty() ? BodyBeside(folder, scene) : body));
   loaded.reference = std::make_unique<Reference>(

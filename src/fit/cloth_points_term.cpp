@@ -141,6 +141,7 @@ void ClothPointsTerm::Impl::FindResiduals(int t) {
       [&](Side side, const Points& from, const VectorXd& share, double weight) {
         if (!(weight > 0)) return;
         const std::vector<Neighbour> nearest = tree.NearestAll(from);
+        stats.neighbour_queries += from.cols();
         for (int i = 0; i < from.cols(); ++i) {
           if (side == Side::kSkin && covered[i]) continue;
           const int point = nearest[i].index;
@@ -162,6 +163,7 @@ void ClothPointsTerm::Impl::FindResiduals(int t) {
   if (weight > 0) {
     const std::vector<SurfacePoint> on_cloth = cloth_index->NearestAll(points);
     const std::vector<SurfacePoint> on_skin = body_index->NearestAll(points);
+    stats.neighbour_queries += 2 * points.cols();
     for (int i = 0; i < points.cols(); ++i) {
       bool bare = true;
       for (int k = 0; k < 3; ++k)

@@ -74,6 +74,7 @@ Json StepsJson(const StepStats& s) {
   json["most_contacts"] = s.most_contacts;
   json["factorizations"] = s.factorizations;
   json["solves"] = s.solves;
+  json["contact_queries"] = s.contact_queries;
   return json;
 }
 
@@ -266,7 +267,10 @@ void SimulationText(const FitReport& report, std::ostream* out) {
       .Add("failed", FailedSteps(s))
       .Add("worst residual", s.worst_residual, " of a vertex's weight")
       .Add("factorisations", std::to_string(s.factorizations))
-      .Add("solves", std::to_string(s.solves));
+      .Add("solves", std::to_string(s.solves))
+      .Add("contact queries", std::to_string(s.contact_queries))
+      .Add("nearest neighbours sought",
+           std::to_string(report.result.stats.neighbour_queries));
   *out << "\nSimulation at the solution\n";
   Lines(out)
       .Add("steps", std::to_string(last.step.substeps))
@@ -402,6 +406,7 @@ std::string FitJson(const FitReport& report) {
                               {"points_to_surface", r.costs.points_to_surface}};
   json["garment_carried_to_shape"] = r.carried;
   json["simulation"] = StepsJson(r.stats.step);
+  json["simulation"]["neighbour_queries"] = r.stats.neighbour_queries;
   const FrameStats last = Simulated(report);
   json["final_simulation"] = StepsJson(last.step);
   json["final_simulation"]["penetration_max_mm"] =

@@ -14,6 +14,7 @@ namespace invsim {
 namespace {
 
 const Vector3d kSkin(0.80, 0.66, 0.57);
+constexpr double kSkinBehind = 0.006;  // m, on the page
 const Vector3d kFabric(0.25, 0.47, 0.66);
 
 double Percentile99(const VectorXd& values) {
@@ -68,6 +69,7 @@ FrameWriter::FrameWriter(const RunFolder& folder,
   page_body_.name = "body";
   page_body_.faces = body_faces;
   page_body_.color = kSkin;
+  page_body_.behind = kSkinBehind;
   page_body_.quantity = "pressure [Pa]";
   page_cloth_.name = "cloth";
   page_cloth_.faces = garment.faces;

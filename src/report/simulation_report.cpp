@@ -72,6 +72,7 @@ Json StatsJson(const FrameStats& stats) {
   json["splitting_iterations"] = s.admm_iterations;
   json["factorizations"] = s.factorizations;
   json["solves"] = s.solves;
+  json["contact_queries"] = s.contact_queries;
   json["penetration_max_mm"] = 1000 * stats.penetration.deepest;
   json["penetrating_vertices"] = stats.penetration.inside;
   json["body_overlap_penetration_max_mm"] =
@@ -116,6 +117,8 @@ void PartText(const FrameStats& stats, std::ostream* out) {
        << "  Newton iterations     " << s.newton_iterations << "\n"
        << "  splitting iterations  " << s.admm_iterations << "\n"
        << "  factorisations        " << s.factorizations << "\n"
+       << "  solves                " << s.solves << "\n"
+       << "  contact queries       " << s.contact_queries << "\n"
        << "  penetration           "
        << ShortNumber(1000 * stats.penetration.deepest) << " mm, "
        << stats.penetration.inside << " vertices at most\n";

@@ -19,6 +19,9 @@ constexpr double kWidth = 720, kHeight = 420;
 constexpr double kLeft = 70, kRight = 700, kTop = 30, kBottom = 370;
 constexpr char kFront[] = "#0072b2";
 constexpr char kDominated[] = "#aaaaaa";
+// Of the keys of a spread.
+constexpr char kLeast[] = "_least";
+constexpr char kLargest[] = "_largest";
 
 std::vector<const SweepResult*> CheapestFirst(const SweepReport& report) {
   std::vector<const SweepResult*> sorted;
@@ -66,19 +69,52 @@ class Axis {
     const double share = std::log(value / low_) / std::log(high_ / low_);
     return from_ + (to_ - from_) * share;
   }
-  // 1, 2 and 5 times powers of ten within it.
+  // 1, 2 and 5 times powers of ten within it; all whole multiples, or halves
+  // too, where those are few.
   std::vector<double> Ticks() const {
+    std::vector<double> ticks;
+    for (const auto& multiples : {std::vector<double>{1, 2, 5},
+                                  {1, 2, 3, 4, 5, 6, 7, 8, 9},
+                                  {1,
+                                   1.2,
+                                   1.5,
+                                   2,
+                                   2.5,
+                                   3,
+                                   3.5,
+                                   4,
+                                   4.5,
+                                   5,
+                                   5.5,
+                                   6,
+                                   6.5,
+                                   7,
+                                   7.5,
+                                   8,
+                                   8.5,
+                                   9,
+                                   9.5}}) {
+      ticks = Within(multiples);
+      if (ticks.size() >= kFewestTicks) break;
+    }
+    return ticks;
+  }
+
+ private:
+  static constexpr size_t kFewestTicks = 4;
+
+  // What there is of these multiples of powers of ten.
+  std::vector<double> Within(const std::vector<double>& multiples) const {
     std::vector<double> ticks;
     for (int e = static_cast<int>(std::floor(std::log10(low_)));
          std::pow(10, e) <= high_;
          ++e)
-      for (const double m : {1, 2, 5})
+      for (const double m : multiples)
         if (m * std::pow(10, e) >= low_ && m * std::pow(10, e) <= high_)
           ticks.push_back(m * std::pow(10, e));
     return ticks;
   }
 
- private:
   double from_, to_;
   double low_ = std::numeric_limits<double>::infinity();
   double high_ = 0;
@@ -164,7 +200,12 @@ class Drawing {
                        "\n" + report_.cost_key + " " +
                        ShortNumber(r.cost.median))
          << "</title></circle>\n";
-    if (r.pareto) Text(x + 8, y - 6, "start", r.setting.name);
+    if (!r.pareto) return;
+    const bool room = x < kLeft + 0.75 * (kRight - kLeft);
+    Text(room ? x + 8 : x - 8,
+         y - 8,
+         room ? "start" : "end",
+         SettingInWords(r.setting));
   }
 
   const SweepReport& report_;
@@ -187,6 +228,46 @@ const double* Find(const SweepResult& r, const std::string& key) {
   return nullptr;
 }
 
+// Solver work: it carries over to other machines as seconds do not.
+struct WorkColumn {
+  const char* title;
+  std::vector<std::string> keys;  // the first that there is
+};
+const std::vector<WorkColumn>& WorkColumns() {
+  static const std::vector<WorkColumn> columns = {
+      {"factoris.", {"total.factorizations", "simulation.factorizations"}},
+      {"solves", {"total.solves", "simulation.solves"}},
+      {"queries", {"total.contact_queries", "simulation.contact_queries"}}};
+  return columns;
+}
+
+std::string WorkText(const SweepResult& r, const WorkColumn& column) {
+  for (const std::string& key : column.keys)
+    if (const double* value = Find(r, key)) return ShortNumber(*value);
+  return "-";
+}
+
+std::string VerdictOf(const SweepReport& report) {
+  const bool time = report.cost_key.find("second") != std::string::npos;
+  return SweepVerdict(report.results, report.tolerance, time ? "time" : "cost");
+}
+
+// "1.2", or "1.2 (1.1 to 1.5)" over repeats that differ.
+std::string SpreadText(const SweepResult& r, const std::string& key) {
+  const double* value = Find(r, key);
+  if (!value) return "";
+  const double* least = Find(r, key + kLeast);
+  const double* largest = Find(r, key + kLargest);
+  if (!least || !largest) return ShortNumber(*value);
+  return ShortNumber(*value) + " (" + ShortNumber(*least) + " to " +
+         ShortNumber(*largest) + ")";
+}
+
+bool EndsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() &&
+         text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 }  // namespace
 
 std::string SweepJson(const SweepReport& report) {
@@ -198,7 +279,7 @@ std::string SweepJson(const SweepReport& report) {
   json["error"] = report.error_key;
   json["cost"] = report.cost_key;
   json["repeats"] = report.repeats;
-  json["verdict"] = SweepVerdict(report.results, report.tolerance);
+  json["verdict"] = VerdictOf(report);
   json["results"] = Json::array();
   for (const SweepResult& r : report.results) {
     Json row;
@@ -248,13 +329,17 @@ std::string SweepText(const SweepReport& report) {
   char line[256];
   std::snprintf(line,
                 sizeof(line),
-                "  %12s %12s %21s  %s\n",
-                report.error_key.substr(0, 12).c_str(),
+                "  %12s %12s %21s",
+                "error",
                 "cost",
-                "least - largest",
-                "setting");
+                "least - largest");
   out << "error: " << report.error_key << "; cost: " << report.cost_key << "\n"
       << line;
+  for (const WorkColumn& column : WorkColumns()) {
+    std::snprintf(line, sizeof(line), " %10s", column.title);
+    out << line;
+  }
+  out << "  setting\n";
   for (const SweepResult* r : CheapestFirst(report)) {
     if (!r->usable) {
       out << "  failed (" << r->failure << ")  " << r->setting.name << "\n";
@@ -262,21 +347,28 @@ std::string SweepText(const SweepReport& report) {
     }
     std::snprintf(line,
                   sizeof(line),
-                  "%c %12.4g %12.4g %10.4g %10.4g  ",
+                  "%c %12.4g %12.4g %10.4g %10.4g",
                   r->pareto ? '*' : ' ',
                   r->error,
                   r->cost.median,
                   r->cost.least,
                   r->cost.largest);
-    out << line << r->setting.name << "\n";
+    out << line;
+    for (const WorkColumn& column : WorkColumns()) {
+      std::snprintf(line, sizeof(line), " %10s", WorkText(*r, column).c_str());
+      out << line;
+    }
+    out << "  " << r->setting.name << "\n";
   }
-  out << "* no other setting is better in both\n"
-      << SweepVerdict(report.results, report.tolerance) << "\n";
+  out << "* no other setting is better in both\n" << VerdictOf(report) << "\n";
   return out.str();
 }
 
 std::string SweepHtml(const SweepReport& report) {
-  const std::vector<std::string> keys = ValueKeys(report);
+  std::vector<std::string> keys = ValueKeys(report);
+  std::erase_if(keys, [](const std::string& key) {
+    return EndsWith(key, kLeast) || EndsWith(key, kLargest);
+  });
   std::ostringstream out;
   out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
          "<title>invsim sweep</title><style>"
@@ -288,7 +380,7 @@ std::string SweepHtml(const SweepReport& report) {
          ".dominated{color:#888}.failed{color:#a00}"
          "</style></head><body>\n<h1>Sweep of "
       << EscapeHtml(report.command) << "</h1>\n<p>"
-      << EscapeHtml(SweepVerdict(report.results, report.tolerance))
+      << EscapeHtml(VerdictOf(report))
       << "</p>\n<p>Held against: " << EscapeHtml(report.held_against)
       << ". Medians of " << report.repeats << " interleaved runs.</p>\n"
       << SweepSvg(report) << "<table><tr><th>setting</th><th>"
@@ -309,8 +401,7 @@ std::string SweepHtml(const SweepReport& report) {
       out << "<td>" << ShortNumber(r->error) << "</td>";
     for (const std::string& key : keys) {
       if (key == report.error_key) continue;
-      const double* value = Find(*r, key);
-      out << "<td>" << (value ? ShortNumber(*value) : "") << "</td>";
+      out << "<td>" << SpreadText(*r, key) << "</td>";
     }
     out << "</tr>\n";
   }

@@ -88,6 +88,7 @@ Json MeshJson(const PageMesh& mesh) {
   const double step = std::max(1e-9, (high - low).maxCoeff() / 65535);
   Json json;
   json["name"] = mesh.name;
+  json["behind"] = mesh.behind;
   json["color"] = {mesh.color[0], mesh.color[1], mesh.color[2]};
   json["vertices"] = mesh.frames[0].cols();
   json["faces"] = Encode(std::vector<std::uint32_t>(

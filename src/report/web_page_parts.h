@@ -36,8 +36,8 @@ svg.chart { width: 100%; margin-bottom: .6rem; }
 svg.chart text { font: 11px system-ui, sans-serif; fill: var(--ink); }
 svg.chart .grid { stroke: var(--line); }
 svg.chart .cursor { stroke: var(--soft); stroke-dasharray: 3 2; }
-pre { overflow-x: auto; border-top: 1px solid var(--line); padding-top: 1rem;
-  font-size: 13px; }
+pre { white-space: pre-wrap; border-top: 1px solid var(--line);
+  padding-top: 1rem; font-size: 13px; }
 )css";
 
 inline constexpr char kPageScript[] = R"js(
@@ -76,11 +76,13 @@ function normals(x, faces, out) {
 
 const vertexShader = `
 attribute vec3 x; attribute vec3 n; attribute float q;
-uniform mat4 view; uniform vec3 eye;
+uniform mat4 view; uniform vec3 eye; uniform float behind;
 varying vec3 normal; varying vec3 ray; varying float value;
 void main() {
   normal = n; ray = eye - x; value = q;
   gl_Position = view * vec4(x, 1.0);
+  vec4 deeper = view * vec4(x - behind * normalize(ray), 1.0);
+  gl_Position.z = deeper.z / deeper.w * gl_Position.w;
 }`;
 const fragmentShader = `
 precision mediump float;
@@ -124,7 +126,8 @@ const meshes = data.meshes.map(m => {
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers.index);
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER,
       wide ? faces : new Uint16Array(faces), gl.STATIC_DRAW);
-  return {name: m.name, color: m.color, faces: faces, buffers: buffers,
+  return {name: m.name, color: m.color, behind: m.behind,
+    faces: faces, buffers: buffers,
     frames: m.frames.map(f => new Uint16Array(bytes(f).buffer)),
     values: m.values.map(bytes), quantity: m.quantity, most: m.most,
     x: new Float32Array(3 * m.vertices), n: new Float32Array(3 * m.vertices),
@@ -244,6 +247,7 @@ function draw() {
       gl.vertexAttribPointer(at(name), size, gl.FLOAT, false, 0, 0);
     }
     gl.uniform3fv(uniform('color'), m.color);
+    gl.uniform1f(uniform('behind'), m.behind);
     gl.uniform1f(uniform('colored'), m.colored ? 1 : 0);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, m.buffers.index);
     gl.drawElements(gl.TRIANGLES, m.faces.length,

@@ -104,6 +104,7 @@ void StepStats::Add(const StepStats& o) {
   most_contacts = std::max(most_contacts, o.most_contacts);
   factorizations += o.factorizations;
   solves += o.solves;
+  contact_queries += o.contact_queries;
   admm_iterations += o.admm_iterations;
   newton_iterations += o.newton_iterations;
   open += o.open;
@@ -132,8 +133,12 @@ struct Simulator::Impl {
   void DetectContacts(const Points& b0,
                       const Points& b1,
                       const Points* v1,
-                      SubstepRecord* sub);
-  bool FindLateContacts(const Points& b0, const Points& b1, SubstepRecord* sub);
+                      SubstepRecord* sub,
+                      StepStats* stats);
+  bool FindLateContacts(const Points& b0,
+                        const Points& b1,
+                        SubstepRecord* sub,
+                        StepStats* stats);
   void Linearize(const SubstepRecord& sub,
                  LinearizationRecord* lin,
                  Timers* timers);
@@ -205,8 +210,10 @@ Simulator::Impl::Impl(SimulatorSetup s) : setup(std::move(s)) {
 void Simulator::Impl::DetectContacts(const Points& b0,
                                      const Points& b1,
                                      const Points* v1,
-                                     SubstepRecord* sub) {
-  if (detector)
+                                     SubstepRecord* sub,
+                                     StepStats* stats) {
+  if (detector) {
+    stats->contact_queries += pattern->size;
     detector->Detect(setup.contact,
                      sub->dt,
                      b0,
@@ -217,6 +224,7 @@ void Simulator::Impl::DetectContacts(const Points& b0,
                      &sub->contacts,
                      &sub->sources,
                      v1);
+  }
   for (const Pin& pin : setup.pins) {
     Contact contact;
     contact.kind = ContactKind::kPin;
@@ -244,7 +252,8 @@ void Simulator::Impl::DetectContacts(const Points& b0,
 // way it took.
 bool Simulator::Impl::FindLateContacts(const Points& b0,
                                        const Points& b1,
-                                       SubstepRecord* sub) {
+                                       SubstepRecord* sub,
+                                       StepStats* stats) {
   const LinearizationRecord& lin = sub->linearizations.back();
   const Points v1 = Eigen::Map<const Points>(lin.v.data(), 3, pattern->size);
   const double margin = setup.contact.margin / sub->dt;
@@ -255,7 +264,7 @@ bool Simulator::Impl::FindLateContacts(const Points& b0,
   SubstepRecord again;
   again.dt = sub->dt;
   again.start = sub->start;
-  DetectContacts(b0, b1, &v1, &again);
+  DetectContacts(b0, b1, &v1, &again, stats);
   if (again.sources.size() <= sub->sources.size()) return false;
   sub->contacts = std::move(again.contacts);
   sub->sources = std::move(again.sources);
@@ -418,13 +427,13 @@ Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
     b1 = Blend(body0, body1, sub->s1);
   }
   const Stopwatch detection;
-  DetectContacts(b0, b1, nullptr, sub);
+  DetectContacts(b0, b1, nullptr, sub, stats);
   if (cloth_detector) DetectClothContacts(sub, stats);
   stats->detection_seconds += detection.seconds();
   Outcome outcome = Iterate(sub, stats);
   for (int k = 0; k < kLateRounds && detector && outcome.finite; ++k) {
     const Stopwatch late;
-    const bool found = FindLateContacts(b0, b1, sub);
+    const bool found = FindLateContacts(b0, b1, sub, stats);
     if (found && cloth_detector) DetectClothContacts(sub, stats);
     stats->detection_seconds += late.seconds();
     if (!found) break;

@@ -14,6 +14,7 @@ namespace invsim {
 namespace {
 
 constexpr char kReference[] = "reference";
+constexpr char kPreset[] = "fit.preset";
 
 // "substeps=4" of ("step.substeps", "4").
 std::string ShortName(const std::string& key, const std::string& value) {
@@ -183,8 +184,17 @@ void MarkPareto(std::vector<SweepResult>* results) {
   }
 }
 
+std::string SettingInWords(const SweepSetting& setting) {
+  if (setting.options.size() != 1 || setting.options[0].first != kPreset)
+    return setting.name;
+  std::string preset = setting.options[0].second;
+  preset.erase(std::remove(preset.begin(), preset.end(), '"'), preset.end());
+  return "--preset " + preset;
+}
+
 std::string SweepVerdict(const std::vector<SweepResult>& results,
-                         double tolerance) {
+                         double tolerance,
+                         const std::string& cost) {
   const SweepResult* best = nullptr;
   for (const SweepResult& r : results)
     if (r.usable && (!best || r.error < best->error)) best = &r;
@@ -195,13 +205,14 @@ std::string SweepVerdict(const std::vector<SweepResult>& results,
         r.cost.median < chosen->cost.median)
       chosen = &r;
   const std::string error = Number(best->error);
+  const std::string name = SettingInWords(best->setting);
   if (chosen == best)
-    return "best error " + error + ": " + best->setting.name +
+    return "best error " + error + ": " + name +
            "; nothing cheaper comes within " + Number(100 * tolerance) + " %";
   const double ratio = best->cost.median / chosen->cost.median;
   return "within " + Number(100 * tolerance) + " % of the best error (" +
-         error + ", " + best->setting.name + ") at 1/" + Number(ratio) +
-         " of the cost: " + chosen->setting.name;
+         error + ", " + name + ") at 1/" + Number(ratio) + " of the " + cost +
+         ": " + SettingInWords(chosen->setting);
 }
 
 }  // namespace invsim

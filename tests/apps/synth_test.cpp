@@ -73,6 +73,44 @@ TEST_F(SynthTest, OverwritesNothingUnlessForced) {
   EXPECT_NE(ReadFileBytes(Path("m.npz")), "mine");
 }
 
+TEST_F(SynthTest, AGridIsEveryCombinationAndIsTakenUpAgain) {
+  const auto grid = [&](const std::string& garments, const std::string& more) {
+    return RunCommand(
+        "synth grid -q --frames 2 --edge 0.08 --points 500 "
+        "--set relaxation.settle_seconds=0 --set relaxation.move_seconds=0.05 "
+        "--set relaxation.hold_seconds=0 --set step.substeps=1 "
+        "--set 'grid.synth.garment=[" +
+        garments +
+        "]' "
+        "--set 'grid.synth.motion=[\"turn\"]' --out " +
+        Path("grid") + " " + more);
+  };
+  ASSERT_EQ(RunCommand("synth garment --name tank_top --edge 0.08 --out " +
+                       Path("vest.obj"))
+                .exit_code,
+            0);
+  // What fails is named, and does not keep the rest from being made.
+  const std::string vest = "\"" + Path("vest.obj") + "\"";
+  const CommandResult first = grid("\"none.obj\", " + vest, "");
+  EXPECT_EQ(first.exit_code, 5);
+  EXPECT_THAT(first.out, HasSubstr("none_turn: failed: invsim: none.obj"));
+  EXPECT_THAT(first.out, HasSubstr("vest_turn: 2 frames of 500 points"));
+  const std::string truth = Path("grid/vest_turn/truth.npz");
+  const auto written = std::filesystem::last_write_time(truth);
+  // What is there is not made again.
+  const CommandResult more = grid("\"tank_top\", " + vest, "");
+  EXPECT_EQ(more.exit_code, 0) << more.err << more.out;
+  EXPECT_TRUE(std::filesystem::exists(Path("grid/tank_top_turn/truth.npz")));
+  EXPECT_EQ(std::filesystem::last_write_time(truth), written);
+  const CommandResult other = grid(vest, "--seed 5");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("--force"));
+  const CommandResult clash = grid(vest + ", \"vest\"", "");
+  EXPECT_EQ(clash.exit_code, 2);
+  EXPECT_THAT(clash.err, HasSubstr("two sequences are called 'vest_turn'"));
+  EXPECT_THAT(RunCommand("synth grid").err, HasSubstr("[grid]"));
+}
+
 TEST_F(SynthTest, RefusesWrongNamesAndOptions) {
   ExpectRefused("bdoy", "did you mean 'body'?");
   ExpectRefused("garment --name tshrt", "did you mean 'tshirt'?");

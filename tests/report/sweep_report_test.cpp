@@ -71,6 +71,38 @@ TEST(SweepReport, ChartMarksTheFrontAndGreysTheRest) {
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
+TEST(SweepReport, ChartHasTicksAndLabelsThatFit) {
+  SweepReport report = Example();
+  report.results[0].setting.name = "a_name_that_is_rather_long";
+  const std::string svg = SweepSvg(report);
+  // The dearest stands at the right edge: its label ends there.
+  EXPECT_THAT(svg,
+              testing::ContainsRegex(
+                  "text-anchor=\"end\">a_name_that_is_rather_long<"));
+  EXPECT_THAT(svg, HasSubstr("text-anchor=\"start\">fast<"));
+  // Errors from 1 to 5 only, yet more than three lines to read them by.
+  for (const char* tick : {">2<", ">3<", ">4<"})
+    EXPECT_THAT(svg, HasSubstr(tick));
+}
+
+TEST(SweepReport, SpreadAndWorkStandBesideTheMedian) {
+  SweepReport report = Example();
+  auto& values = report.results[0].values;
+  values.emplace_back("seconds_least", 7);
+  values.emplace_back("seconds_largest", 9.5);
+  values.emplace_back("total.factorizations", 110);
+  values.emplace_back("total.solves", 1201);
+  values.emplace_back("total.contact_queries", 40000);
+  const std::string page = SweepHtml(report);
+  EXPECT_THAT(page, HasSubstr("<td>8 (7 to 9.5)</td>"));
+  EXPECT_THAT(page, Not(HasSubstr("seconds_least")));
+  EXPECT_THAT(page, HasSubstr("<td>40000</td>"));
+  EXPECT_THAT(SweepCsv(report), HasSubstr(",seconds_least,seconds_largest,"));
+  const std::string text = SweepText(report);
+  EXPECT_THAT(text, HasSubstr("queries  setting\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("110 +1201 +40000  good\n"));
+}
+
 TEST(SweepReport, PageSaysTheVerdict) {
   const std::string page = SweepHtml(Example());
   EXPECT_THAT(page, HasSubstr("best error 1: good"));

@@ -60,6 +60,12 @@ TEST(Rollout, GivesEveryFrameInOrderAndSumsThem) {
   EXPECT_EQ(result.stats.step.substeps, sum.step.substeps);
   EXPECT_GE(result.stats.step.substeps, 5 * scene.options.step.substeps);
   EXPECT_EQ(result.stats.step.missed, 0);
+  // Every vertex looks for skin once a step, again where contacts came late.
+  const long queries = result.stats.step.contact_queries;
+  EXPECT_EQ(queries, sum.step.contact_queries);
+  EXPECT_EQ(queries % scene.sheet.num_vertices(), 0);
+  EXPECT_GE(queries,
+            long{result.stats.step.substeps} * scene.sheet.num_vertices());
   EXPECT_LT(result.stats.penetration.deepest, 1e-3);
 }
 

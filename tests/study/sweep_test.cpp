@@ -117,8 +117,21 @@ TEST(SweepVerdict, NamesTheCheapestThatIsNearlyAsGood) {
   EXPECT_EQ(SweepVerdict(results, 0.05),
             "within 5 % of the best error (1, best) at 1/6 of the cost: "
             "nearly");
+  EXPECT_THAT(SweepVerdict(results, 0.05, "time"), HasSubstr("of the time: "));
   EXPECT_THAT(SweepVerdict(results, 0.001), HasSubstr("nothing cheaper"));
   EXPECT_EQ(SweepVerdict({results.back()}, 0.05), "no setting succeeded");
+}
+
+TEST(SweepVerdict, SpeaksOfAPresetAsItIsAskedFor) {
+  std::vector<SweepResult> results = {Result("slow", 1, 60),
+                                      Result("usual", 1.04, 10)};
+  results[1].setting.options = {{"fit.preset", "\"balanced\""}};
+  EXPECT_EQ(SweepVerdict(results, 0.05, "time"),
+            "within 5 % of the best error (1, slow) at 1/6 of the time: "
+            "--preset balanced");
+  // With another option beside it, it is no longer the preset.
+  results[1].setting.options.emplace_back("step.substeps", "2");
+  EXPECT_THAT(SweepVerdict(results, 0.05), HasSubstr(": usual"));
 }
 
 }  // namespace

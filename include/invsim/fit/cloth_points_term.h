@@ -65,6 +65,7 @@ struct ClothPointsCosts {
 struct ClothPointsStats {
   StepStats step;  // over all evaluations
   long frames = 0;
+  long neighbour_queries = 0;  // of points for surfaces, and of vertices
   double simulation_seconds = 0;
   double neighbour_seconds = 0;
   double sensitivity_seconds = 0;

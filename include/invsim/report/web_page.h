@@ -26,6 +26,9 @@ struct PageMesh {
   Vector3d color = {0.7, 0.7, 0.7};  // red, green, blue in [0, 1]
   std::string quantity;              // "stress [N/m]"; "": none
   std::vector<VectorXd> values;      // one per frame
+  // m, drawn so much further from the eye than it is: a garment touches skin
+  // with its vertices, and the skin would show through faces that cut corners.
+  double behind = 0;
 };
 
 struct WebPage {

@@ -55,6 +55,7 @@ struct StepStats {
   int most_contacts = 0;
   int factorizations = 0;
   int solves = 0;
+  long contact_queries = 0;  // searches for the skin near a cloth vertex
   int admm_iterations = 0;
   int newton_iterations = 0;  // of the frictional solve
   int open = 0, stick = 0, slide = 0;

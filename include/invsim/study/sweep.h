@@ -50,6 +50,7 @@ struct SweepOptions {
                                      "total.steps_halved",
                                      "total.factorizations",
                                      "total.solves",
+                                     "total.contact_queries",
                                      "total.newton_iterations",
                                      "total.splitting_iterations",
                                      "optimization.iterations",
@@ -58,7 +59,9 @@ struct SweepOptions {
                                      "simulation.steps",
                                      "simulation.steps_missed",
                                      "simulation.factorizations",
-                                     "simulation.solves"};
+                                     "simulation.solves",
+                                     "simulation.contact_queries",
+                                     "simulation.neighbour_queries"};
   double tolerance = 0.05;  // of "within 5 % of the best error"
 };
 void Describe(OptionTable* table, SweepOptions* options);
@@ -108,10 +111,15 @@ struct SweepResult {
 // error and cost and better in one.
 void MarkPareto(std::vector<SweepResult>* results);
 
-// "within 5 % of the best error (1.2 mm) at 1/6 of the cost: NAME", or that
-// nothing succeeded.
+// What to ask for to have a setting: "--preset draft" if that is all it sets,
+// else its name.
+std::string SettingInWords(const SweepSetting& setting);
+
+// "within 5 % of the best error (1.2, precise) at 1/6 of the time: --preset
+// balanced", or that nothing succeeded. `cost`: what the cost is called.
 std::string SweepVerdict(const std::vector<SweepResult>& results,
-                         double tolerance);
+                         double tolerance,
+                         const std::string& cost = "cost");
 
 }  // namespace invsim
 

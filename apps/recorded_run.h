@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INVSIM_APPS_RECORDED_RUN_H_
+#define INVSIM_APPS_RECORDED_RUN_H_
+
+// `invsim` run once as another process, with a record of how it went, so that
+// it need not be run again:
+//
+//   PATH/       what it left
+//   PATH.json   its arguments, exit code and times, once it is done
+//   PATH.log    what it printed
+
+#include <string>
+#include <vector>
+
+namespace invsim {
+
+struct RunOutcome {
+  int exit_code = -1;
+  double wall_seconds = 0;
+  double cpu_seconds = 0;
+  bool usable() const { return exit_code == 0 || exit_code == 4; }
+};
+
+class RecordedRun {
+ public:
+  // `arguments`: all but --out PATH, the command first.
+  RecordedRun(std::string path, std::vector<std::string> arguments);
+
+  const std::string& folder() const { return path_; }
+
+  // Runs it, unless it is done. Exit code 130 (interrupted) leaves it undone.
+  // Throws UsageError if it was done with other arguments.
+  RunOutcome Run() const;
+
+  // Removes what is there of it.
+  void Forget() const;
+
+  // Of what it printed: the result, or why it failed.
+  std::string LastLine() const;
+
+ private:
+  std::string path_;
+  std::vector<std::string> arguments_;
+};
+
+}  // namespace invsim
+
+#endif  // INVSIM_APPS_RECORDED_RUN_H_

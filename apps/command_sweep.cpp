@@ -83,9 +83,12 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
   }
   if (plan_.has_reference) {
     if (!run(plan_.reference, 0)) return false;
-    if (!runs.At(plan_.reference, 0).Run().usable())
-      throw InputError("the reference run failed: " +
-                       runs.At(plan_.reference, 0).LastLine());
+    const RecordedRun reference = runs.At(plan_.reference, 0);
+    if (!reference.Run().usable()) {
+      const std::string why = reference.LastLine();
+      reference.Forget();  // to be tried again: nothing goes without it
+      throw InputError("the reference run failed: " + why);
+    }
   }
   for (int repeat = 0; repeat < options_.repeats; ++repeat)
     for (const SweepSetting& setting : settings)

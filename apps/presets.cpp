@@ -13,12 +13,9 @@ constexpr char kKey[] = "fit.preset";
 const std::vector<Preset>& Presets() {
   static const std::vector<Preset> presets = {
       {"draft",
-       "a first look: two steps a frame, a quarter of the points, few "
-       "iterations",
+       "a first look: two steps a frame, three iterations",
        R"(step.substeps = 2
-input.max_points = 1000
-lm.iterations = 4
-lm.refused_steps = 2
+lm.iterations = 3
 )"},
       {"balanced", "the defaults", ""},
       {"precise",

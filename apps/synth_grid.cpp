@@ -88,6 +88,7 @@ ExitCode SynthGrid::Run(const std::string& out,
     complete = complete && outcome.usable();
     *results << (outcome.usable() ? "" : run.folder() + ": failed: ")
              << run.LastLine() << std::endl;
+    if (!outcome.usable()) run.Forget();  // to be tried again
   }
   return complete ? ExitCode::kOk : ExitCode::kFailed;
 }

@@ -102,7 +102,7 @@ TEST_F(FitCommandTest, PresetStandsBelowWhatIsSetByHand) {
       RunCommand("init " + Arguments("--frames 1 --preset draft"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(ReadFileBytes((out() / "config.resolved.toml").string()),
-              AllOf(HasSubstr("max_points = 1000  # preset draft"),
+              AllOf(HasSubstr("iterations = 3  # preset draft"),
                     HasSubstr("substeps = 1  # --set"),  // the preset says 2
                     HasSubstr("preset = \"draft\"  # --preset")));
 }

@@ -19,12 +19,8 @@ lm.iterations = 3
 )"},
       {"balanced", "the defaults", ""},
       {"precise",
-       "when time matters little: eight steps a frame, iterations until "
-       "nothing moves",
+       "when time matters little: eight steps a frame",
        R"(step.substeps = 8
-lm.iterations = 60
-lm.refused_steps = 10
-lm.function_tolerance = 1e-6
 )"},
   };
   return presets;

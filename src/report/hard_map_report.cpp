@@ -55,7 +55,7 @@ std::string LetterNotes(const HardMapReport& report, const Letter& letter) {
 std::string HardMapText(const HardMapReport& report) {
   const HardMap& map = report.map;
   char text[32];
-  std::string out = map.shows + "\niterations per step; along: " + map.x_title +
+  std::string out = map.shows + "\nalong: " + map.x_title +
                     "; down: " + map.y_title + "\n\n        ";
   for (size_t i = 0; i < map.x.size(); ++i) {
     std::snprintf(

@@ -34,18 +34,25 @@ double Percent(double part, double whole) {
   return whole > 0 ? 100 * part / whole : 0;
 }
 
+// "3 scenes (0.1 %), seeds 5 17 99"
+std::string SeedsText(const std::vector<std::uint64_t>& seeds, int scenes) {
+  std::string text = Line("%d scenes (%.2g %%), seeds",
+                          static_cast<int>(seeds.size()),
+                          Percent(seeds.size(), scenes));
+  for (size_t k = 0; k < seeds.size() && k < kSeedsShown; ++k)
+    text += " " + std::to_string(seeds[k]);
+  return text + (seeds.size() > kSeedsShown ? " ...\n" : "\n");
+}
+
 std::string FailuresText(const SoakResult& result) {
   std::string text;
   for (const auto& [limit, seeds] : ByLimit(result)) {
-    text += Line("%-22s %d scenes (%.3g %%), seeds",
-                 limit.c_str(),
-                 static_cast<int>(seeds.size()),
-                 Percent(seeds.size(), result.scenes));
-    for (size_t k = 0; k < seeds.size() && k < kSeedsShown; ++k)
-      text += " " + std::to_string(seeds[k]);
-    text += seeds.size() > kSeedsShown ? " ...\n" : "\n";
+    text += Line("%-22s ", limit.c_str()) + SeedsText(seeds, result.scenes);
   }
-  text += "\n";
+  for (const auto& [border, seeds] : result.borders)
+    text += "border: " + border + "\n" + std::string(23, ' ') +
+            SeedsText(seeds, result.scenes);
+  if (!result.failures.empty()) text += "\n";
   for (size_t k = 0; k < result.failures.size() && k < kScenesShown; ++k) {
     const SoakFailure& failure = result.failures[k];
     text += "seed " + std::to_string(failure.seed) + ": ";
@@ -113,6 +120,8 @@ std::string SoakJson(const SoakResult& r) {
   json["failing_seeds"] = Json::object();
   for (const auto& [limit, seeds] : ByLimit(r))
     json["failing_seeds"][limit] = seeds;
+  json["borders"] = Json::object();
+  for (const auto& [border, seeds] : r.borders) json["borders"][border] = seeds;
   json["failures"] = Json::array();
   for (const SoakFailure& failure : r.failures) {
     Json row{{"seed", failure.seed}, {"scene", failure.words}};

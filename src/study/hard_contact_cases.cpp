@@ -23,26 +23,6 @@ HardScene StartInside() {
   return scene;
 }
 
-// Two boards in a V that closes from 80 to 20 degrees on a sheet hung in it:
-// they cross at the apex.
-HardScene Armpit() {
-  const TriangleMesh board =
-      Shifted(BoxMesh(Vector3d(0.02, 0.2, 0.2)), Vector3d(0, 0.18, 0));
-  HardScene scene =
-      SceneOf(Shifted(Upright(SheetMesh(8, 0.2)), Vector3d(0, 0.18, 0)), {});
-  const auto open = [board](double degrees) {
-    const double angle = 0.5 * degrees * EIGEN_PI / 180;
-    return Joined(Turned(board, Turn(angle, Vector3d::UnitZ())),
-                  Turned(board, Turn(-angle, Vector3d::UnitZ())));
-  };
-  scene.body = open(80);
-  scene.frames = 60;
-  scene.body_at = [open](int frame) {
-    return open(80 - std::min(frame, 40) * 1.5).vertices;
-  };
-  return scene;
-}
-
 HardScene AllInContact() {
   return SceneOf(Shifted(SheetMesh(10, 0.2), Vector3d(0, 0.152, 0)),
                  BoxMesh(Vector3d::Constant(0.15)));
@@ -172,7 +152,7 @@ void AddContactCases(std::vector<HardCase>* cases) {
   add("squeezed", "cloth between boards that leave it no room", [] {
     return SheetBetweenBoards(0.002);
   });
-  add("armpit", "cloth in a V that closes on it", Armpit);
+  add("armpit", "cloth in a V that closes on it", [] { return SheetInV(20); });
   add("all_in_contact", "every vertex in contact", AllInContact);
   add("cube_edge", "a vertex exactly above an edge", CubeEdge);
   add("cube_corner", "a vertex exactly above a corner", CubeCorner);

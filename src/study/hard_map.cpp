@@ -13,7 +13,7 @@ namespace {
 HardMap StiffnessAndStep() {
   HardMap map;
   map.name = "stiffness_dt";
-  map.shows = "a sheet of 3.5 cm cells, 0.2 kg/m^2, falls over a ball";
+  map.shows = "Iterations per step: a sheet of 3.5 cm cells falls over a ball";
   map.x_title = "membrane stiffness, N/m";
   map.y_title = "length of a step, s";
   map.x = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
@@ -33,19 +33,17 @@ HardMap StiffnessAndStep() {
   return map;
 }
 
-// The gallery's boards that close on a sheet while one slides along.
+// The gallery's armpit.
 HardMap FrictionAndSqueeze() {
   HardMap map;
   map.name = "mu_squeeze";
-  map.shows = "a sheet between boards that close and slide, clearance 2 mm";
-  map.x_title =
-      "gap between the boards, mm (below 4 no room is left for the "
-      "clearances, below 0 they cross)";
+  map.shows = "Iterations per step: a sheet in a V that closes on it";
+  map.x_title = "angle of the V when it has closed, degrees";
   map.y_title = "friction coefficient";
-  map.x = {6, 5, 4.5, 4, 3.5, 3, 2, 1, 0.5, 0.1, 0, -1, -3};
-  map.y = {0, 0.1, 0.3, 0.6, 1, 2, 5, 10, 30, 100};
-  map.make = [](double gap, double mu) {
-    HardScene scene = SheetBetweenBoards(1e-3 * gap);
+  map.x = {60, 45, 30, 20, 15, 10, 7, 5, 3, 1, 0};
+  map.y = {0, 0.1, 0.3, 0.6, 1, 2, 5, 20, 100};
+  map.make = [](double degrees, double mu) {
+    HardScene scene = SheetInV(degrees);
     scene.options.contact.friction = mu;
     return scene;
   };

@@ -154,6 +154,29 @@ HardScene SheetBetweenBoards(double gap) {
   return scene;
 }
 
+HardScene SheetInV(double degrees) {
+  constexpr double kOpen = 80;
+  const TriangleMesh board =
+      Shifted(BoxMesh(Vector3d(0.02, 0.2, 0.2)), Vector3d(0, 0.18, 0));
+  HardScene scene =
+      SceneOf(Shifted(Upright(SheetMesh(8, 0.2)), Vector3d(0, 0.18, 0)), {});
+  const auto v = [board](double opening) {
+    const double angle = 0.5 * opening * EIGEN_PI / 180;
+    const auto leaning = [&](double by) {
+      return Turned(
+          board, Eigen::AngleAxisd(by, Vector3d::UnitZ()).toRotationMatrix());
+    };
+    return Joined(leaning(angle), leaning(-angle));
+  };
+  scene.body = v(kOpen);
+  scene.frames = 60;
+  scene.body_at = [v, degrees](int frame) {
+    const double closed = std::min(frame, 40) / 40.0;
+    return v(kOpen + closed * (degrees - kOpen)).vertices;
+  };
+  return scene;
+}
+
 void SetOption(HardScene* scene,
                const std::string& key,
                const std::string& value) {

@@ -67,9 +67,6 @@ void AddTimeCases(std::vector<HardCase>* cases) {
     cases->push_back({std::string("time/") + name, shows, std::move(make)});
   };
   add("dt_1_10", "steps of 1/10 s", [] { return Steps(10, 20); });
-  cases->back().border =
-      "a step of one linearisation does not see the strain that its own "
-      "turning makes";
   add("dt_1_2000", "steps of 1/2000 s", [] { return Steps(2000, 400); });
   add("motion_5_mps", "a body shaken at 5 m/s", FastMotion);
   add("teleport_20_cm", "a body that jumps by 20 cm in a frame", Teleport);

@@ -4,8 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <limits>
 #include <sstream>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "hard_cases.h"
@@ -13,6 +16,24 @@
 
 namespace invsim {
 namespace {
+
+// Borders; see RandomScene.
+constexpr double kStiff = 1e5;
+constexpr double kRounding = 1e9;
+constexpr double kBoard = 0.1;
+
+double SmallestHeight(const TriangleMesh& mesh) {
+  const VectorXd areas = FaceAreas(mesh.vertices, mesh.faces);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Eigen::Index f = 0; f < mesh.faces.cols(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const double side = (mesh.vertices.col(mesh.faces(k, f)) -
+                           mesh.vertices.col(mesh.faces((k + 1) % 3, f)))
+                              .norm();
+      smallest = std::min(smallest, 2 * areas[f] / side);
+    }
+  return smallest;
+}
 
 // Draws a scene step by step and says what it drew.
 class Draw {
@@ -58,6 +79,7 @@ class Draw {
   Random random_;
   std::ostringstream words_;
   HardScene scene_;
+  double stiffest_ = 0, softest_ = 0;  // N/m
   double depth_ = 0;  // m, of the body: how far in the cloth can get
 };
 
@@ -81,6 +103,10 @@ TriangleMesh Draw::Sheet() {
   if (Chance(0.15)) {
     sliver = Log(1e-4, 0.1);
     Say("slivers 1:", 1 / sliver);
+    if (sliver < 0.01) {
+      scene_.options.step.max_halvings = 0;
+      scene_.options.step.friction.retries = 0;
+    }
   }
   TriangleMesh mesh = GridMesh(Lines(nx, x, 0), Lines(nz, z, sliver));
   if (sliver > 0 || !Chance(0.5)) return mesh;
@@ -120,8 +146,10 @@ void Draw::DrawMaterial() {
   Material& material = scene_.material;
   material.name = "cloth";
   const double membrane = Log(1, 1e6);
+  stiffest_ = softest_ = membrane;
   if (Chance(0.2)) {
     const double ratio = Log(1, 1e3), other = std::max(1.0, membrane / ratio);
+    softest_ = other;
     material.stretch = OrthotropicStretch{membrane, 0, other, other};
     Say("membrane ", membrane, " and ", other, " N/m");
   } else {
@@ -370,12 +398,53 @@ RandomScene Draw::Scene() {
     DrawStart();
   }
   if (Chance(0.05)) PutFarAway();
+  const VectorXd areas = FaceAreas(cloth.vertices, cloth.faces);
+  const double dt = 1 / scene_.frames_per_second /
+                    static_cast<double>(scene_.options.step.substeps);
+  const double height = SmallestHeight(cloth);
+  drawn.stiffness =
+      stiffest_ * dt * dt / (scene_.material.density * height * height);
+  drawn.board = std::get<IsotropicBending>(scene_.material.bending).stiffness /
+                (softest_ * areas.mean());
+  drawn.squeezed = kind < 0.2;
   drawn.words = words_.str();
   drawn.scene = std::move(scene_);
   return drawn;
 }
 
 }  // namespace
+
+HardOutcome RunRandomScene(const RandomScene& drawn) {
+  try {
+    return RunHardScene(drawn.scene, drawn.derivative);
+  } catch (const std::exception& error) {
+    HardOutcome outcome;
+    outcome.broken.push_back({"throws", error.what()});
+    return outcome;
+  }
+}
+
+std::string KnownBorder(const RandomScene& drawn,
+                        const HardOutcome& outcome,
+                        const Breach& breach) {
+  if (breach.limit == "throws" || breach.limit == "derivative") return "";
+  if (drawn.stiffness > kRounding)
+    return "slivers so thin that rounding decides";
+  if (breach.limit == "penetration" && drawn.squeezed)
+    return "boards press with a thousand times the cloth's weight: contacts "
+           "that share a vertex yield";
+  if (breach.limit != "energy") return "";
+  if (outcome.step.stopped > 0)
+    return "cloth stopped on its way through cloth strains its neighbours";
+  if (outcome.step.missed > 0)
+    return "steps above the contact tolerance do not balance";
+  if (drawn.stiffness > kStiff)
+    return "a membrane too stiff for an eighth of the step";
+  if (drawn.board > kBoard)
+    return "bending as stiff as the membrane closes cells to lines, where it "
+           "has no angle";
+  return "";
+}
 
 RandomScene DrawScene(std::uint64_t seed) {
   RandomScene drawn = Draw(seed).Scene();

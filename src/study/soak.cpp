@@ -2,7 +2,7 @@
 #include "invsim/study/soak.h"
 
 #include <algorithm>
-#include <exception>
+#include <utility>
 
 namespace invsim {
 
@@ -21,18 +21,16 @@ void SoakResult::Add(const RandomScene& drawn, const HardOutcome& outcome) {
     derivative = std::max(derivative, outcome.derivative);
   }
   seconds += outcome.seconds;
-  if (!outcome.broken.empty())
-    failures.push_back({drawn.seed, drawn.words, outcome.broken});
-}
-
-HardOutcome RunRandomScene(const RandomScene& drawn) {
-  try {
-    return RunHardScene(drawn.scene, drawn.derivative);
-  } catch (const std::exception& error) {
-    HardOutcome outcome;
-    outcome.broken.push_back({"throws", error.what()});
-    return outcome;
+  SoakFailure failure{drawn.seed, drawn.words, {}};
+  std::string border;
+  for (const Breach& breach : outcome.broken) {
+    border = KnownBorder(drawn, outcome, breach);
+    if (border.empty()) failure.broken.push_back(breach);
   }
+  if (!failure.broken.empty())
+    failures.push_back(std::move(failure));
+  else if (!border.empty())
+    borders[border].push_back(drawn.seed);
 }
 
 }  // namespace invsim

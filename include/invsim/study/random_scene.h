@@ -8,7 +8,8 @@
 // what fails once is made again from its seed alone.
 //
 //   cloth      a sheet, slivers down to 1:10,000, a ring, a triangle, two
-//              layers; level or turned; 3 to 40 cm
+//              layers; level or turned; 3 to 40 cm. Beyond slivers of 1:100
+//              steps are not tried again: that does not help, only takes long
 //   material   membrane 1 to 1e6 N/m, isotropic or up to 1:1000 between the
 //              axes, bending 0 or 1e-7 to 1 N m, density 0.01 to 10 kg/m^2
 //   effects    damping of mass (0.1 to 1e4 1/s), of stretch (1e-4 to 1 s), air,
@@ -36,9 +37,27 @@ struct RandomScene {
   std::string words;  // the scene in words, one line
   HardScene scene;
   bool derivative = false;  // the share whose derivative is to be checked
+  // What decides whether a scene is beyond a known border. Y is the membrane's
+  // stiffness (the larger one, then the smaller one), h the smallest height of
+  // a face, A the mean area.
+  // Y dt^2 / (rho h^2): how stiff the cloth is for the length of a step. Fits
+  // are below 1e4.
+  double stiffness = 0;
+  // B / (Y A): how stiff it bends for how it stretches. Fits are below 0.01.
+  double board = 0;
+  bool squeezed = false;  // between boards
 };
 
 RandomScene DrawScene(std::uint64_t seed);
+
+// Runs the scene. An exception is a breach of "throws".
+HardOutcome RunRandomScene(const RandomScene& drawn);
+
+// Why the breach is beyond what the simulator promises, in words; empty: the
+// simulator is to hold there.
+std::string KnownBorder(const RandomScene& drawn,
+                        const HardOutcome& outcome,
+                        const Breach& breach);
 
 }  // namespace invsim
 

@@ -5,6 +5,7 @@
 // Many random scenes one after the other, and what they showed together.
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,11 @@ struct SoakResult {
   int columns = 0, switched = 0;
   double seconds = 0;
   std::vector<SoakFailure> failures;
+  // Scenes beyond a known border (KnownBorder) and no failure otherwise.
+  std::map<std::string, std::vector<std::uint64_t>> borders;
 
   void Add(const RandomScene& drawn, const HardOutcome& outcome);
 };
-
-// Runs the scene. An exception is a breach of "throws".
-HardOutcome RunRandomScene(const RandomScene& drawn);
 
 }  // namespace invsim
 

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
 
 #include "command.h"
@@ -49,6 +50,11 @@ class SweepCommand : public Command {
  private:
   bool RunAll(const SweepRuns& runs, std::ostream* log) const;
   SweepReport Gather(const SweepRuns& runs) const;
+  std::vector<std::pair<std::string, double>> Compare(
+      const SweepRuns& runs,
+      const LoadedReference* truth,
+      const std::string& folder,
+      SweepResult* result) const;
   void Measure(const SweepRuns& runs,
                const LoadedReference* truth,
                SweepResult* result) const;
@@ -96,29 +102,43 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
   return true;
 }
 
-// The numbers of a usable result that need a comparison.
+// The numbers of a run that need a comparison.
+std::vector<std::pair<std::string, double>> SweepCommand::Compare(
+    const SweepRuns& runs,
+    const LoadedReference* truth,
+    const std::string& folder,
+    SweepResult* result) const {
+  if (truth) return Evaluate(*truth->reference, LoadEstimate(folder)).Values();
+  if (!plan_.has_reference) return {};
+  const ClothDifference d =
+      CompareClothFolders(folder, runs.At(plan_.reference, 0).folder());
+  if (result->frame_errors_mm.empty()) result->frame_errors_mm = d.rms_mm;
+  return {{kClothRms, d.total_rms_mm()},
+          {"cloth_last_frame_rms_mm", d.rms_mm.back()},
+          {"cloth_mean_mm", d.mean_mm},
+          {"cloth_max_mm", d.max_mm}};
+}
+
+// Of every repeat: rounding alone may lead two runs apart.
 void SweepCommand::Measure(const SweepRuns& runs,
                            const LoadedReference* truth,
                            SweepResult* result) const {
-  const std::string folder = runs.At(result->setting, 0).folder();
+  std::vector<std::string> keys;
+  std::map<std::string, std::vector<double>> repeats;
   try {
-    if (truth) {
-      const Metrics metrics = Evaluate(*truth->reference, LoadEstimate(folder));
-      for (const auto& value : metrics.Values())
-        result->values.push_back(value);
-    } else if (plan_.has_reference) {
-      const ClothDifference d =
-          CompareClothFolders(folder, runs.At(plan_.reference, 0).folder());
-      result->frame_errors_mm = d.rms_mm;
-      result->values.emplace_back(kClothRms, d.total_rms_mm());
-      result->values.emplace_back("cloth_last_frame_rms_mm", d.rms_mm.back());
-      result->values.emplace_back("cloth_mean_mm", d.mean_mm);
-      result->values.emplace_back("cloth_max_mm", d.max_mm);
+    for (int k = 0; k < options_.repeats; ++k) {
+      const std::string folder = runs.At(result->setting, k).folder();
+      for (const auto& [key, value] : Compare(runs, truth, folder, result)) {
+        if (!repeats.count(key)) keys.push_back(key);
+        repeats[key].push_back(value);
+      }
     }
   } catch (const InputError& error) {
     result->usable = false;
     result->failure = error.what();
+    return;
   }
+  for (const std::string& key : keys) result->Add(key, repeats[key]);
 }
 
 // Looks the two keys up in every result.

@@ -90,18 +90,10 @@ SweepResult SweepRuns::Result(
     for (auto& [key, values] : numbers)
       if (FindNumber(report, key, &value)) values.push_back(value);
   }
-  const auto add = [&](const std::string& key, const std::vector<double>& v) {
-    if (v.empty()) return;
-    const SweepSpread spread = SpreadOf(v);
-    result.values.emplace_back(key, spread.median);
-    if (v.size() < 2 || spread.least == spread.largest) return;
-    result.values.emplace_back(key + "_least", spread.least);
-    result.values.emplace_back(key + "_largest", spread.largest);
-  };
-  add("wall_seconds", wall);
-  add("cpu_seconds", cpu);
-  add("cpu_per_simulated_second", simulation);
-  for (const auto& [key, values] : numbers) add(key, values);
+  result.Add("wall_seconds", wall);
+  result.Add("cpu_seconds", cpu);
+  result.Add("cpu_per_simulated_second", simulation);
+  for (const auto& [key, values] : numbers) result.Add(key, values);
   return result;
 }
 

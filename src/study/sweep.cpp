@@ -170,6 +170,16 @@ SweepSpread SpreadOf(std::vector<double> values) {
           values.back()};
 }
 
+void SweepResult::Add(const std::string& key,
+                      const std::vector<double>& repeats) {
+  if (repeats.empty()) return;
+  const SweepSpread spread = SpreadOf(repeats);
+  values.emplace_back(key, spread.median);
+  if (spread.least == spread.largest) return;
+  values.emplace_back(key + "_least", spread.least);
+  values.emplace_back(key + "_largest", spread.largest);
+}
+
 void MarkPareto(std::vector<SweepResult>* results) {
   for (SweepResult& r : *results) {
     r.pareto = r.usable;

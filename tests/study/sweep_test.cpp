@@ -81,6 +81,18 @@ TEST(SpreadOf, IsMedianLeastAndLargest) {
   EXPECT_EQ(SpreadOf({4, 1, 2, 100}).median, 3);
 }
 
+TEST(SweepResult, KeepsTheSpreadOfNumbersThatDiffer) {
+  SweepResult r;
+  r.Add("error", {3, 1, 8});
+  r.Add("steps", {4, 4, 4});
+  r.Add("none", {});
+  EXPECT_THAT(r.values,
+              ElementsAre(Pair("error", 3),
+                          Pair("error_least", 1),
+                          Pair("error_largest", 8),
+                          Pair("steps", 4)));
+}
+
 SweepResult Result(const std::string& name,
                    double error,
                    double cost,

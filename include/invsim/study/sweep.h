@@ -105,6 +105,10 @@ struct SweepResult {
   std::vector<std::pair<std::string, double>> values;
   std::vector<double> frame_errors_mm;  // rms per frame against the reference
   bool pareto = false;                  // no other is better in both
+
+  // Adds the median of a number's repeats, and as KEY_least and KEY_largest
+  // the others, if they differ.
+  void Add(const std::string& key, const std::vector<double>& repeats);
 };
 
 // Marks the usable results that no other usable one beats: as good in both

@@ -46,7 +46,9 @@ TEST(DrawScene, IsTheSameForTheSameSeed) {
     EXPECT_EQ(a.words, b.words);
     EXPECT_EQ(a.scene.garment.placed, b.scene.garment.placed);
     EXPECT_EQ(a.scene.body.vertices, b.scene.body.vertices);
-    if (a.scene.body_at) EXPECT_EQ(a.scene.body_at(3), b.scene.body_at(3));
+    if (a.scene.body_at) {
+      EXPECT_EQ(a.scene.body_at(3), b.scene.body_at(3));
+    }
   }
   EXPECT_NE(DrawScene(0).words, DrawScene(1).words);
 }

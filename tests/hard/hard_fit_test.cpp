@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <set>
 
 #include "invsim/report/fit_report.h"
 #include "test_name.h"
 
 namespace invsim {
+
+void PrintTo(const HardFitCase& hard, std::ostream* out) { *out << hard.name; }
+
 namespace {
 
 class HardFitTest : public testing::TestWithParam<HardFitCase> {};

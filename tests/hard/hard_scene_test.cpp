@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <set>
 
 #include "test_name.h"
 
 namespace invsim {
+
+void PrintTo(const HardCase& hard, std::ostream* out) { *out << hard.name; }
+
 namespace {
 
 class HardSceneTest : public testing::TestWithParam<HardCase> {};

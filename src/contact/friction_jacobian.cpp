@@ -18,7 +18,23 @@ void Transform(const Matrix3d& m, int i, Columns* x) {
   AddProduct(m, rows, 0, x, i);
 }
 
+// What makes velocities commensurate with forces at an exact contact.
+double Rho(const BlockMatrix& a, const Contact& c) {
+  return a.diagonal(c.vertex[0]).trace() / 3;
+}
+
 }  // namespace
+
+bool Acts(const Contact& c,
+          const BlockMatrix& a,
+          const VectorXd& v,
+          const Vector3d& force) {
+  if (c.kind == ContactKind::kPin) return true;
+  const Vector3d u = c.Gather(v) - c.velocity;
+  const double compressed = -c.normal.dot(u);
+  if (!c.exact()) return compressed > 0;
+  return c.normal.dot(force) + Rho(a, c) * compressed > 0;
+}
 
 FrictionJacobian::FrictionJacobian(std::shared_ptr<const BlockPattern> pattern)
     : pattern_(pattern), momentum_(pattern), jacobian_(pattern) {}
@@ -52,15 +68,17 @@ void FrictionJacobian::Linearize(const std::vector<Contact>& contacts,
         symmetric_ = false;
       continue;
     }
-    const double rho = a.diagonal(c.vertex[0]).trace() / 3;
+    const double rho = Rho(a, c);
     if (c.kind == ContactKind::kPin) {
-      exact_[k] = {
-          Matrix3d::Zero(), rho * Matrix3d::Identity(), Matrix3d::Zero()};
+      exact_[k] = {Matrix3d::Zero(),
+                   rho * Matrix3d::Identity(),
+                   Matrix3d::Zero(),
+                   false};
       continue;
     }
     const ContactLinearization l =
         LinearizeAlartCurnier(c.normal, c.friction, rho, forces[k], u);
-    exact_[k] = {l.p, l.q, l.n};
+    exact_[k] = {l.p, l.q, l.n, l.mode == ContactMode::kOpen};
     if (l.mode == ContactMode::kSlide && c.friction > 0) symmetric_ = false;
   }
 }
@@ -88,7 +106,7 @@ bool FrictionJacobian::Factor(const BlockMatrix& a,
   jacobian_ = momentum_;
   const BlockPattern& p = *pattern_.pattern();
   for (size_t k = 0; k < contacts_.size(); ++k) {
-    if (!contacts_[k].exact()) continue;
+    if (!contacts_[k].exact() || exact_[k].open) continue;
     const int i = contacts_[k].vertex[0];
     for (int b = p.row_start[i]; b < p.row_start[i + 1]; ++b) {
       jacobian_.block(b) = (exact_[k].p * jacobian_.block(b)).eval();
@@ -179,7 +197,7 @@ void FrictionJacobian::Forward(const Columns& dn,
   }
   for (size_t k = 0; k < contacts_.size(); ++k) {
     const Contact& c = contacts_[k];
-    if (!c.exact()) continue;
+    if (!c.exact() || exact_[k].open) continue;
     const int row = 3 * static_cast<int>(k), i = 3 * c.vertex[0];
     Transform(exact_[k].p, i, rhs);
     AddProduct(exact_[k].q, dw, row, rhs, i);
@@ -192,7 +210,7 @@ void FrictionJacobian::Adjoint(Columns* z, Columns* dn, Columns* dw) const {
   SolveTransposed(z);
   for (size_t k = 0; k < contacts_.size(); ++k) {
     const Contact& c = contacts_[k];
-    if (!c.exact()) continue;
+    if (!c.exact() || exact_[k].open) continue;
     const int row = 3 * static_cast<int>(k), i = 3 * c.vertex[0];
     AddProduct(exact_[k].q.transpose(), *z, i, dw, row);
     AddProduct(-exact_[k].n.transpose(), *z, i, dn, row);

@@ -10,8 +10,9 @@
 namespace invsim {
 namespace {
 
-// The planes of a sub-step's contacts with the body as functions of the body
-// at the two ends of the frame and of the cloth at the start of the sub-step.
+// The planes of a sub-step's contacts with the body that act, as functions of
+// the body at the two ends of the frame and of the cloth at the start of the
+// sub-step.
 class PlaneDerivatives {
  public:
   PlaneDerivatives(const Simulator& simulator,
@@ -21,6 +22,8 @@ class PlaneDerivatives {
       : sub_(sub) {
     const Faces& faces = simulator.body_faces();
     for (const BodyContact& source : sub.sources) {
+      if (!Matters(sub, source.contact)) continue;
+      sources_.push_back(&source);
       Matrix3d p0, p1;
       std::array<int, 3> corners;
       for (int k = 0; k < 3; ++k) {
@@ -52,8 +55,8 @@ class PlaneDerivatives {
                const Columns& x0,
                Columns* dn,
                Columns* dw) const {
-    for (size_t k = 0; k < sub_.sources.size(); ++k) {
-      const int row = 3 * sub_.sources[k].contact;
+    for (size_t k = 0; k < sources_.size(); ++k) {
+      const int row = 3 * sources_[k]->contact;
       for (int corner = 0; corner < 3; ++corner) {
         const int from = 3 * corners_[k][corner];
         if (body0.size() > 0)
@@ -64,7 +67,7 @@ class PlaneDerivatives {
       if (x0.size() > 0)
         Add(jacobians_[k].leftCols<3>(),
             x0,
-            3 * sub_.sources[k].vertex,
+            3 * sources_[k]->vertex,
             row,
             dn,
             dw);
@@ -82,8 +85,8 @@ class PlaneDerivatives {
                Columns* body0,
                Columns* body1,
                Columns* x0) const {
-    for (size_t k = 0; k < sub_.sources.size(); ++k) {
-      const int row = 3 * sub_.sources[k].contact;
+    for (size_t k = 0; k < sources_.size(); ++k) {
+      const int row = 3 * sources_[k]->contact;
       for (int corner = 0; corner < 3; ++corner) {
         const int to = 3 * corners_[k][corner];
         if (body0)
@@ -95,7 +98,7 @@ class PlaneDerivatives {
                     dn,
                     dw,
                     row,
-                    3 * sub_.sources[k].vertex,
+                    3 * sources_[k]->vertex,
                     x0);
     }
     ForPins([&](int contact, int vertex) {
@@ -105,6 +108,15 @@ class PlaneDerivatives {
 
  private:
   using Block63 = Eigen::Matrix<double, 6, 3>;
+
+  static bool Matters(const SubstepRecord& sub, int contact) {
+    return std::any_of(
+        sub.linearizations.begin(),
+        sub.linearizations.end(),
+        [&](const LinearizationRecord& lin) {
+          return Acts(sub.contacts[contact], lin.a, lin.v, lin.forces[contact]);
+        });
+  }
 
   // d(n, w)/d(corner at the start or end of the frame).
   Block63 Block(size_t k, int corner, bool end) const {
@@ -146,6 +158,7 @@ class PlaneDerivatives {
   }
 
   const SubstepRecord& sub_;
+  std::vector<const BodyContact*> sources_;  // of contacts that matter
   std::vector<std::array<int, 3>> corners_;
   std::vector<ContactPlaneJacobian> jacobians_;
 };

@@ -30,6 +30,13 @@
 
 namespace invsim {
 
+// Whether the contact acts at a solution, that is, is not open: J, and with it
+// the derivative of v, does not depend on the plane of one that does not.
+bool Acts(const Contact& contact,
+          const BlockMatrix& a,
+          const VectorXd& v,
+          const Vector3d& force);
+
 class FrictionJacobian {
  public:
   // `pattern` of A. Contacts may couple vertices that it does not.
@@ -61,6 +68,7 @@ class FrictionJacobian {
  private:
   struct Row {
     Matrix3d p, q, n;
+    bool open;  // p = 1, q = n = 0
   };
   void Linearize(const std::vector<Contact>& contacts,
                  const VectorXd& v,

@@ -2,8 +2,9 @@
 #ifndef INVSIM_BENCHMARKS_HARNESS_H_
 #define INVSIM_BENCHMARKS_HARNESS_H_
 
-// Timing and its tables. On a shared machine the clock of one run says little:
-// a time is the median of several, and what is claimed are ratios of two things
+// Timing and its tables. Times are processor time, as on a shared machine the
+// clock measures the neighbours; and even so one run says little: a time is the
+// median of several, and what is claimed are ratios of two things
 // measured alternately in one run.
 
 #include <functional>

@@ -379,9 +379,6 @@ void Draw::PutFarAway() {
 RandomScene Draw::Scene() {
   RandomScene drawn;
   drawn.derivative = Chance(0.2);
-  // Where a contact changes its mode within 1e-7 m only the smallest step of
-  // the differences is left, with its rounding.
-  scene_.limits.derivative = 1e-4;
   scene_.limits.missed = std::numeric_limits<int>::max();
   const TriangleMesh cloth = Cloth();
   DrawMaterial();

@@ -19,7 +19,7 @@
 namespace invsim {
 namespace {
 
-constexpr char kDefaultOut[] = "invsim_compare";
+constexpr char kCompareOut[] = "invsim_compare";
 
 struct CompareOptions {
   std::vector<std::string> optimizers = Optimizers().names();
@@ -88,7 +88,7 @@ ExitCode CompareCommand::Run(const CommandContext& context) {
   const auto truth = LoadTruth(static_cast<int>(data.clouds.size()));
   Simulator simulator(
       MakeSetup(scene_, data.body, data.garment, data.material));
-  const RunFolder folder(context.out.empty() ? kDefaultOut : context.out,
+  const RunFolder folder(context.out.empty() ? kCompareOut : context.out,
                          force_);
   folder.Write("config.resolved.toml", ResolvedToml(*context.options));
   fit_.uncertainty = false;

@@ -31,7 +31,7 @@
 namespace invsim {
 namespace {
 
-constexpr char kDefaultOut[] = "invsim_demo";
+constexpr char kDemoOut[] = "invsim_demo";
 
 struct DemoOptions {
   int frames = 12;
@@ -196,7 +196,7 @@ void DemoCommand::PrintTable(const Truth& truth,
 
 ExitCode DemoCommand::Run(const CommandContext& context) {
   const Stopwatch watch;
-  const std::string out = context.out.empty() ? kDefaultOut : context.out;
+  const std::string out = context.out.empty() ? kDemoOut : context.out;
   const std::string sequence = out + "/sequence", run = out + "/fit",
                     start_path = out + "/start.npz";
   if (force_)

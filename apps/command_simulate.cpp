@@ -23,7 +23,7 @@
 namespace invsim {
 namespace {
 
-constexpr char kDefaultOut[] = "invsim_simulate";
+constexpr char kSimulateOut[] = "invsim_simulate";
 
 std::string Note(const FrameStats& stats) {
   std::string note = std::to_string(stats.step.most_contacts) + " contacts";
@@ -146,7 +146,7 @@ ExitCode SimulateCommand::Run(const CommandContext& context) {
       &scene_);
   Simulator simulator(
       MakeSetup(scene_, scene.body, scene.garment, scene.material));
-  const RunFolder folder(context.out.empty() ? kDefaultOut : context.out,
+  const RunFolder folder(context.out.empty() ? kSimulateOut : context.out,
                          force_);
   folder.Write("config.resolved.toml", ResolvedToml(*context.options));
   WriteMotion(folder.File("body.npz"), scene.motion);

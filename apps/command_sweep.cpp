@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kDefaultOut[] = "invsim_sweep";
+constexpr char kSweepOut[] = "invsim_sweep";
 constexpr char kClothRms[] = "cloth_rms_mm";
 constexpr char kBodyError[] = "body_v2v_mean_mm";
 constexpr char kCpuPerSecond[] = "cpu_per_simulated_second";
@@ -198,7 +198,7 @@ SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
 
 ExitCode SweepCommand::Run(const CommandContext& context) {
   const InterruptGuard interrupt;
-  const fs::path out(context.out.empty() ? kDefaultOut : context.out);
+  const fs::path out(context.out.empty() ? kSweepOut : context.out);
   if (options_.truth.empty() && !plan_.has_reference)
     throw UsageError(
         "sweep: nothing to hold runs against; expected a [reference] or "

@@ -18,7 +18,7 @@ namespace invsim {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 Json ReadJson(const fs::path& path) {
   if (!fs::exists(path)) return Json::object();

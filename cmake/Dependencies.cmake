@@ -51,6 +51,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND INVSIM_WARNINGS
        -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict)
 endif()
+# Several sources in one: what a source's private class holds of its anonymous
+# namespace then looks as if it came from a header.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND INVSIM_WARNINGS -Wno-subobject-linkage)
+endif()
 if(INVSIM_WERROR)
   list(APPEND INVSIM_WARNINGS -Werror)
 endif()

@@ -15,14 +15,14 @@ namespace {
 
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
-using Panel = Eigen::Map<MatrixXf>;
+using FloatPanel = Eigen::Map<MatrixXf>;
 
 }  // namespace
 
 struct CholeskyPreconditioner::Impl {
   explicit Impl(std::shared_ptr<const BlockPattern> pattern);
-  Panel panel(const Supernode& s) {
-    return Panel(values.data() + s.offset, s.height, s.width);
+  FloatPanel panel(const Supernode& s) {
+    return FloatPanel(values.data() + s.offset, s.height, s.width);
   }
   bool Load(const BlockMatrix& a);
   void Update(const Supernode& target, const Supernode& source, int i1);
@@ -80,8 +80,8 @@ void CholeskyPreconditioner::Impl::Update(const Supernode& target,
   const int width = source.RowsBefore(i1, target.end()) - i1;
   if (product.size() < static_cast<size_t>(m) * width)
     product.resize(static_cast<size_t>(m) * width);
-  const Panel l = panel(source);
-  Panel p(product.data(), m, width);
+  const FloatPanel l = panel(source);
+  FloatPanel p(product.data(), m, width);
   p.noalias() = l.bottomRows(m) * l.middleRows(i1, width).transpose();
   for (int c = 0; c < width; ++c) {
     float* to =
@@ -93,7 +93,7 @@ void CholeskyPreconditioner::Impl::Update(const Supernode& target,
 }
 
 bool CholeskyPreconditioner::Impl::Finish(const Supernode& s) {
-  Panel l = panel(s);
+  FloatPanel l = panel(s);
   Eigen::Ref<MatrixXf> diagonal = l.topRows(s.width);
   const Eigen::LLT<Eigen::Ref<MatrixXf>> llt(diagonal);
   if (llt.info() != Eigen::Success) return false;
@@ -135,7 +135,7 @@ void CholeskyPreconditioner::Solve(VectorXd* x) const {
     s.y[j] = static_cast<float>((*x)[s.supernodes.permutation(j)]);
   const auto& nodes = s.supernodes.nodes();
   for (const Supernode& node : nodes) {
-    const Panel l = s.panel(node);
+    const FloatPanel l = s.panel(node);
     auto own = s.y.segment(node.first, node.width);
     l.topRows(node.width).triangularView<Eigen::Lower>().solveInPlace(own);
     if (node.below() == 0) continue;
@@ -145,7 +145,7 @@ void CholeskyPreconditioner::Solve(VectorXd* x) const {
     for (int r = 0; r < node.below(); ++r) s.y[rows[r]] -= rest[r];
   }
   for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-    const Panel l = s.panel(*node);
+    const FloatPanel l = s.panel(*node);
     auto own = s.y.segment(node->first, node->width);
     if (node->below() > 0) {
       auto rest = s.z.head(node->below());

@@ -23,14 +23,14 @@ const Vector3d kLow(0.0, -1.125, -0.15);
 const Vector3d kHigh(0.90, 0.62, 0.19);
 // The solid's "distance" is at most this many times the distance.
 constexpr double kSteepest = 2.0;
-constexpr int kBlock = 8;
+constexpr int kGridBlock = 8;
 
 // Nodes are evaluated in blocks; one that the surface cannot reach needs only
 // its sign.
 void SampleBlock(const std::array<int, 3>& first, ScalarGrid* grid) {
   std::array<int, 3> end;
   for (int c = 0; c < 3; ++c) {
-    end[c] = std::min(first[c] + kBlock, grid->size()[c]);
+    end[c] = std::min(first[c] + kGridBlock, grid->size()[c]);
   }
   const Vector3d low = grid->Position(first[0], first[1], first[2]);
   const Vector3d high = grid->Position(end[0], end[1], end[2]);
@@ -51,10 +51,10 @@ void SampleBlock(const std::array<int, 3>& first, ScalarGrid* grid) {
 ScalarGrid SampleLeftHalf() {
   ScalarGrid grid(kLow, kHigh, kCell);
   const std::array<int, 3>& n = grid.size();
-  tbb::parallel_for(0, (n[2] + kBlock - 1) / kBlock, [&](int k) {
-    for (int j = 0; j < n[1]; j += kBlock) {
-      for (int i = 0; i < n[0]; i += kBlock) {
-        SampleBlock({i, j, k * kBlock}, &grid);
+  tbb::parallel_for(0, (n[2] + kGridBlock - 1) / kGridBlock, [&](int k) {
+    for (int j = 0; j < n[1]; j += kGridBlock) {
+      for (int i = 0; i < n[0]; i += kGridBlock) {
+        SampleBlock({i, j, k * kGridBlock}, &grid);
       }
     }
   });

@@ -26,7 +26,13 @@ enum Side {
   kShoulder = 16,
   kElbow = 18
 };
-enum Middle { kRoot = 0, kSpine1 = 3, kSpine2 = 6, kSpine3 = 9, kHead = 15 };
+enum Middle {
+  kRootJoint = 0,
+  kSpine1Joint = 3,
+  kSpine2Joint = 6,
+  kSpine3Joint = 9,
+  kHeadJoint = 15
+};
 
 auto Joint(int j, PoseVector* pose) { return pose->segment<3>(3 * j); }
 
@@ -60,7 +66,7 @@ PoseVector ArmsDownAndSwing(double seconds) {
     shoulder = Log(Exp(Vector3d(-0.55 * sign * swing, 0, 0)) * Exp(shoulder));
     Joint(kElbow + side, &pose).y() -= sign * 0.15 * swing * swing;
   }
-  Joint(kSpine2, &pose).y() = -0.08 * swing;
+  Joint(kSpine2Joint, &pose).y() = -0.08 * swing;
   return pose;
 }
 
@@ -78,8 +84,8 @@ PoseVector WalkInPlace(double seconds) {
     auto shoulder = Joint(kShoulder + side, &pose);
     shoulder = Log(Exp(Vector3d(0.40 * sign * swing, 0, 0)) * Exp(shoulder));
   }
-  Joint(kSpine1, &pose).y() = 0.06 * swing;
-  Joint(kSpine3, &pose).y() = 0.06 * swing;
+  Joint(kSpine1Joint, &pose).y() = 0.06 * swing;
+  Joint(kSpine3Joint, &pose).y() = 0.06 * swing;
   return pose;
 }
 
@@ -92,8 +98,8 @@ PoseVector Turn(double seconds) {
   const double ramp = std::min(seconds, 1.0);
   // The integral of SmoothStep(0, 1, .) up to ramp.
   const double eased = std::pow(ramp, 4) * (2.5 + ramp * (ramp - 3.0));
-  Joint(kRoot, &pose).y() = speed * (eased + std::max(0.0, seconds - 1.0));
-  Joint(kHead, &pose).y() = 0.25 * SmoothStep(0.0, 1.0, seconds);
+  Joint(kRootJoint, &pose).y() = speed * (eased + std::max(0.0, seconds - 1.0));
+  Joint(kHeadJoint, &pose).y() = 0.25 * SmoothStep(0.0, 1.0, seconds);
   return pose;
 }
 
@@ -110,10 +116,10 @@ PoseVector Squat(double seconds) {
   SetPair(kHip, Vector3d(-1.35 * down, 0.0, 0.12 * down), &pose);
   SetPair(kKnee, Vector3d(1.65 * down, 0.0, 0.0), &pose);
   SetPair(kAnkle, Vector3d(-0.62 * down, 0.0, 0.0), &pose);
-  Joint(kRoot, &pose).x() = 0.32 * down;
-  Joint(kSpine1, &pose).x() = 0.10 * down;
-  Joint(kSpine3, &pose).x() = 0.10 * down;
-  Joint(kHead, &pose).x() = -0.30 * down;
+  Joint(kRootJoint, &pose).x() = 0.32 * down;
+  Joint(kSpine1Joint, &pose).x() = 0.10 * down;
+  Joint(kSpine3Joint, &pose).x() = 0.10 * down;
+  Joint(kHeadJoint, &pose).x() = -0.30 * down;
   return pose;
 }
 
@@ -148,8 +154,8 @@ std::array<Vector3d, 4> Soles(const PoseVector& pose) {
   std::array<Vector3d, 4> soles;
   for (int side = 0; side < 2; ++side) {
     Matrix3d rotation = Exp(root);
-    Vector3d place = rest.col(kRoot);
-    int parent = kRoot;
+    Vector3d place = rest.col(kRootJoint);
+    int parent = kRootJoint;
     for (const int joint : {kHip + side, kKnee + side, kAnkle + side}) {
       place += rotation * (rest.col(joint) - rest.col(parent));
       rotation = rotation * Exp(pose.segment<3>(3 * joint));

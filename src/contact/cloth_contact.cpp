@@ -21,7 +21,7 @@ constexpr double kGap = 0.1;
 // The least share of its distance by which a pair may come nearer in a step.
 constexpr double kLeastGain = 1e-3;
 // Pairs nearer than this are touching: there is no telling on which side.
-constexpr double kTouching = 1e-9;  // m
+constexpr double kCrossing = 1e-9;  // m
 // How much of the distance in which they were made neighbours keep, at most.
 constexpr double kMadeShare = 0.5;
 // Two faces give the same contact if a vertex is as near to both.
@@ -323,7 +323,7 @@ void ClothContactDetector::Impl::AddNear(size_t begin,
     const Candidate& c = candidates[k];
     const double d = c.nearest.distance;
     ClothContact source;
-    if (d > c.reach || d < kTouching ||
+    if (d > c.reach || d < kCrossing ||
         !MakeSource(c.pair, c.nearest.weights, &source))
       continue;
     const PairPoints x = Corners(x0, c.pair);
@@ -358,7 +358,7 @@ void ClothContactDetector::Impl::AddNear(size_t begin,
 // When the pair touches on its way to x1, or kNever.
 double ClothContactDetector::Impl::Touches(const Candidate& c,
                                            const Points& x1) const {
-  if (c.nearest.distance < kTouching) return kNever;
+  if (c.nearest.distance < kCrossing) return kNever;
   return FirstTimeWithin(Gap(kGap * options.thickness, c.nearest.distance),
                          c.pair.kind,
                          Corners(x0, c.pair),

@@ -15,7 +15,7 @@ template <typename T>
 using Corner4 = Eigen::Matrix<T, 3, 4>;
 
 template <typename T>
-struct Plane {
+struct SelfPlane {
   Vector3<T> normal, velocity;
   Eigen::Matrix<T, 4, 1> weights;
   T distance;
@@ -64,11 +64,11 @@ void Weigh(PairFeature feature,
 }
 
 template <typename T>
-Plane<T> EvaluatePlane(const SelfContactOptions& options,
-                       double dt,
-                       const ClothContact& contact,
-                       const Corner4<T>& x) {
-  Plane<T> plane;
+SelfPlane<T> EvaluateSelfPlane(const SelfContactOptions& options,
+                               double dt,
+                               const ClothContact& contact,
+                               const Corner4<T>& x) {
+  SelfPlane<T> plane;
   Vector3<T> normal;
   Weigh(contact.feature, x, &plane.weights, &normal);
   const Vector3<T> offset = x * plane.weights;
@@ -92,7 +92,8 @@ ClothPlane EvaluateClothPlane(const SelfContactOptions& options,
                               double dt,
                               const ClothContact& contact,
                               const PairPoints& x) {
-  const Plane<double> plane = EvaluatePlane<double>(options, dt, contact, x);
+  const SelfPlane<double> plane =
+      EvaluateSelfPlane<double>(options, dt, contact, x);
   return {plane.normal, plane.velocity, plane.weights, plane.distance};
 }
 
@@ -104,7 +105,8 @@ ClothPlaneJacobian DifferentiateClothPlane(const SelfContactOptions& options,
   Corner4<Jet> corners;
   for (int k = 0; k < 4; ++k)
     for (int c = 0; c < 3; ++c) corners(c, k) = Jet(x(c, k), 3 * k + c);
-  const Plane<Jet> plane = EvaluatePlane<Jet>(options, dt, contact, corners);
+  const SelfPlane<Jet> plane =
+      EvaluateSelfPlane<Jet>(options, dt, contact, corners);
   ClothPlaneJacobian jacobian;
   for (int c = 0; c < 3; ++c) {
     jacobian.row(c) = plane.normal[c].v.transpose();

@@ -15,7 +15,7 @@ template <typename T>
 using Matrix3 = Eigen::Matrix<T, 3, 3>;
 
 template <typename T>
-struct Plane {
+struct BodyPlane {
   Vector3<T> normal;
   Vector3<T> velocity;
   T distance;
@@ -49,14 +49,14 @@ Vector3<T> FeatureWeights(const Vector3<T>& q,
 }
 
 template <typename T>
-Plane<T> EvaluatePlane(const BodyContactOptions& options,
-                       double dt,
-                       TriangleFeature feature,
-                       double side,
-                       const Vector3<T>& x0,
-                       const Matrix3<T>& p0,
-                       const Matrix3<T>& p1) {
-  Plane<T> plane;
+BodyPlane<T> EvaluateBodyPlane(const BodyContactOptions& options,
+                               double dt,
+                               TriangleFeature feature,
+                               double side,
+                               const Vector3<T>& x0,
+                               const Matrix3<T>& p0,
+                               const Matrix3<T>& p1) {
+  BodyPlane<T> plane;
   const Vector3<T> b = FeatureWeights(x0, p0, feature);
   const Vector3<T> displacement = (p1 - p0) * b;
   const Vector3<T> carried = x0 + displacement;
@@ -85,8 +85,8 @@ ContactPlane EvaluateContactPlane(const BodyContactOptions& options,
                                   const Vector3d& x0,
                                   const Matrix3d& corners0,
                                   const Matrix3d& corners1) {
-  const Plane<double> plane =
-      EvaluatePlane<double>(options, dt, feature, side, x0, corners0, corners1);
+  const BodyPlane<double> plane = EvaluateBodyPlane<double>(
+      options, dt, feature, side, x0, corners0, corners1);
   return {plane.normal, plane.velocity, plane.distance};
 }
 
@@ -108,8 +108,8 @@ ContactPlaneJacobian DifferentiateContactPlane(
       p1(c, k) = Jet(corners1(c, k), 12 + 3 * k + c);
     }
   }
-  const Plane<Jet> plane =
-      EvaluatePlane<Jet>(options, dt, feature, side, x, p0, p1);
+  const BodyPlane<Jet> plane =
+      EvaluateBodyPlane<Jet>(options, dt, feature, side, x, p0, p1);
   ContactPlaneJacobian jacobian;
   for (int c = 0; c < 3; ++c) {
     jacobian.row(c) = plane.normal[c].v.transpose();

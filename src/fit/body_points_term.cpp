@@ -17,7 +17,7 @@ namespace {
 
 // Up to 3 rows of residual whose derivative is -direction^T sum_k w_k dM_k
 // (a distance along a direction) or dM_k (a vertex's offset).
-struct PointResidual {
+struct BodyPointResidual {
   double distance;
   Vector3d direction;  // unit, from the skin to the point
   std::array<int, 3> vertices;
@@ -26,16 +26,16 @@ struct PointResidual {
   const ceres::LossFunction* loss;
 };
 
-struct VertexResidual {
+struct BodyVertexResidual {
   int vertex;
   Vector3d offset;
   double weight;
 };
 
-struct FrameState {
+struct BodyFrame {
   std::shared_ptr<const PosedBody> body;
-  std::vector<PointResidual> points;
-  std::vector<VertexResidual> vertices;
+  std::vector<BodyPointResidual> points;
+  std::vector<BodyVertexResidual> vertices;
 };
 
 // How much a point of the skin is hidden, 0 to 1. Interpolated, so that the
@@ -70,7 +70,7 @@ struct BodyPointsTerm::Impl {
   std::vector<SurfaceIndex> surfaces;
   std::vector<int> vertices;  // bare, those that are used
   std::vector<double> vertex_weights;
-  std::vector<FrameState> frames;
+  std::vector<BodyFrame> frames;
 };
 
 BodyPointsTerm::Impl::Impl(const BodyModel& model,
@@ -113,7 +113,7 @@ void BodyPointsTerm::Impl::ChooseVertices(std::uint64_t seed) {
 }
 
 void BodyPointsTerm::Impl::FindPoints(int t) {
-  FrameState& frame = frames[t];
+  BodyFrame& frame = frames[t];
   const Points& points = trees[t].points();
   const std::vector<SurfacePoint> nearest = surfaces[t].NearestAll(points);
   const double weight =
@@ -121,7 +121,7 @@ void BodyPointsTerm::Impl::FindPoints(int t) {
   frame.points.clear();
   for (int i = 0; i < points.cols(); ++i) {
     const SurfacePoint& q = nearest[i];
-    PointResidual r;
+    BodyPointResidual r;
     r.distance = q.signed_distance;
     // On the skin itself the pseudo-normal is the limit of the direction.
     r.direction = q.distance > 1e-9
@@ -141,7 +141,7 @@ void BodyPointsTerm::Impl::FindPoints(int t) {
 }
 
 void BodyPointsTerm::Impl::FindVertices(int t) {
-  FrameState& frame = frames[t];
+  BodyFrame& frame = frames[t];
   const int n = static_cast<int>(vertices.size());
   const Points& posed = frame.body->vertices();
   Points queries(3, n);
@@ -156,7 +156,7 @@ void BodyPointsTerm::Impl::FindVertices(int t) {
 }
 
 FrameBlock BodyPointsTerm::Impl::Block(int t, bool derivatives) const {
-  const FrameState& frame = frames[t];
+  const BodyFrame& frame = frames[t];
   BlockCompressor sum(kNumBodyParameters, derivatives);
   MatrixXd all;
   if (derivatives) {
@@ -166,7 +166,7 @@ FrameBlock BodyPointsTerm::Impl::Block(int t, bool derivatives) const {
   }
   VectorXd distance(1);
   MatrixXd row;
-  for (const PointResidual& p : frame.points) {
+  for (const BodyPointResidual& p : frame.points) {
     distance[0] = p.distance;
     if (derivatives) {
       row = -p.direction.transpose() *
@@ -177,7 +177,7 @@ FrameBlock BodyPointsTerm::Impl::Block(int t, bool derivatives) const {
     sum.Add(distance, row, p.weight, p.loss);
   }
   const MatrixXd none;
-  for (const VertexResidual& v : frame.vertices) {
+  for (const BodyVertexResidual& v : frame.vertices) {
     if (derivatives)
       sum.Add(
           v.offset, all.middleRows<3>(3 * v.vertex), v.weight, skin_loss.get());
@@ -206,7 +206,7 @@ Evaluation BodyPointsTerm::Evaluate(const BodySequence& x,
   const int n = num_frames();
   costs->assign(n, 0);
   ParallelFor(n, 1, [&](int t) {
-    FrameState& frame = impl_->frames[t];
+    BodyFrame& frame = impl_->frames[t];
     frame.body = impl_->body.Pose(x.Frame(t));
     impl_->surfaces[t].Update(frame.body->vertices());
     impl_->FindPoints(t);

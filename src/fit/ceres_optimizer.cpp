@@ -3,15 +3,12 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <limits>
-
 #include "invsim/base/stopwatch.h"
 #include "invsim/fit/optimizer.h"
 
 namespace invsim {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // Few frames: the Jacobian is small and dense.
 constexpr int kDenseFrames = 2;
 

@@ -28,7 +28,7 @@ constexpr int kFramesPerAnalysis = 2;
 enum class Side { kCloth, kSkin };
 
 // A vertex and the point it belongs to.
-struct VertexResidual {
+struct ClothVertexResidual {
   Side side;
   int vertex;
   Vector3d offset;
@@ -42,7 +42,7 @@ struct VertexResidual {
 };
 
 // A point's distance to a face along `direction` (from face to point).
-struct PointResidual {
+struct ClothPointResidual {
   Side side;
   double distance;
   Vector3d direction;
@@ -51,10 +51,10 @@ struct PointResidual {
   double weight;
 };
 
-struct FrameState {
+struct ClothFrame {
   std::shared_ptr<const PosedBody> body;
-  std::vector<VertexResidual> vertices;
-  std::vector<PointResidual> points;
+  std::vector<ClothVertexResidual> vertices;
+  std::vector<ClothPointResidual> points;
 };
 
 VectorXd VertexShares(const Points& vertices, const Faces& faces) {
@@ -65,12 +65,12 @@ VectorXd VertexShares(const Points& vertices, const Faces& faces) {
   return share / share.sum();
 }
 
-PointResidual ToFace(Side side,
-                     const Vector3d& p,
-                     const SurfacePoint& q,
-                     const Faces& faces,
-                     double weight) {
-  PointResidual r;
+ClothPointResidual ToFace(Side side,
+                          const Vector3d& p,
+                          const SurfacePoint& q,
+                          const Faces& faces,
+                          double weight) {
+  ClothPointResidual r;
   r.side = side;
   r.distance = q.distance;
   r.direction =
@@ -109,7 +109,7 @@ struct ClothPointsTerm::Impl {
   std::shared_ptr<const ceres::LossFunction> loss;
   std::unique_ptr<SurfaceIndex> body_index, cloth_index;
   std::vector<int> every_vertex;
-  std::vector<FrameState> frames;
+  std::vector<ClothFrame> frames;
   ClothPointsStats stats;
 };
 
@@ -126,7 +126,7 @@ ClothPointsTerm::Impl::Impl(const BodyModel& model,
 
 void ClothPointsTerm::Impl::FindResiduals(int t) {
   const Stopwatch watch;
-  FrameState& frame = frames[t];
+  ClothFrame& frame = frames[t];
   const Points& skin = frame.body->vertices();
   const Points& garment = rollout.cloth(t).x;
   body_index->Update(skin);
@@ -190,12 +190,12 @@ void ClothPointsTerm::Impl::FindResiduals(int t) {
 FrameBlock ClothPointsTerm::Impl::Block(int t,
                                         const MatrixXd* skin,
                                         const Columns* garment) const {
-  const FrameState& frame = frames[t];
+  const ClothFrame& frame = frames[t];
   const bool derivatives = skin != nullptr;
   BlockCompressor sum(kNumBodyParameters, derivatives);
   MatrixXd j;
   VectorXd distance(1);
-  for (const VertexResidual& v : frame.vertices) {
+  for (const ClothVertexResidual& v : frame.vertices) {
     if (derivatives) {
       if (v.side == Side::kSkin)
         j = skin->middleRows<3>(3 * v.vertex);
@@ -211,7 +211,7 @@ FrameBlock ClothPointsTerm::Impl::Block(int t,
     }
   }
   j.resize(0, 0);
-  for (const PointResidual& p : frame.points) {
+  for (const ClothPointResidual& p : frame.points) {
     distance[0] = p.distance;
     if (derivatives) {
       j.setZero(1, kNumBodyParameters);
@@ -381,11 +381,11 @@ ClothPointsCosts ClothPointsTerm::costs() const {
     impl_->loss->Evaluate(squared, rho);
     return 0.5 * weight * rho[0];
   };
-  for (const FrameState& frame : impl_->frames) {
-    for (const VertexResidual& v : frame.vertices)
+  for (const ClothFrame& frame : impl_->frames) {
+    for (const ClothVertexResidual& v : frame.vertices)
       (v.side == Side::kCloth ? costs.cloth_to_points : costs.skin_to_points) +=
           cost(v.weight, v.squared());
-    for (const PointResidual& p : frame.points)
+    for (const ClothPointResidual& p : frame.points)
       costs.points_to_surface += cost(p.weight, p.distance * p.distance);
   }
   return costs;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/fit/sequence_fit.h"
 
-#include <limits>
 #include <sstream>
 
 #include "invsim/base/error.h"
@@ -14,9 +13,8 @@
 namespace invsim {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // Points closer together than this were not measured on anybody, m.
-constexpr double kSmallestExtent = 0.01;
+constexpr double kSmallestCloud = 0.01;
 
 void CheckClouds(const std::vector<Points>& clouds) {
   if (clouds.empty()) throw InputError("points: no frame");
@@ -26,7 +24,7 @@ void CheckClouds(const std::vector<Points>& clouds) {
     if (!clouds[t].allFinite()) throw InputError(frame + ": not all finite");
     const Vector3d size =
         clouds[t].rowwise().maxCoeff() - clouds[t].rowwise().minCoeff();
-    if (size.maxCoeff() >= kSmallestExtent) continue;
+    if (size.maxCoeff() >= kSmallestCloud) continue;
     std::ostringstream text;
     text << frame << ": all " << clouds[t].cols() << " within "
          << 1000 * size.maxCoeff() << " mm; expected a person's";

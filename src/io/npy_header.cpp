@@ -10,7 +10,7 @@
 namespace invsim {
 namespace {
 
-constexpr std::string_view kMagic("\x93NUMPY", 6);
+constexpr std::string_view kNpyMagic("\x93NUMPY", 6);
 // NumPy refuses to evaluate longer heads too.
 constexpr std::size_t kLongestHeader = 10000;
 constexpr std::size_t kMostDimensions = 64;
@@ -157,7 +157,7 @@ void ParseType(std::string_view descr,
 std::string_view HeaderText(std::string_view bytes,
                             const std::string& name,
                             NpyHeader* header) {
-  if (bytes.substr(0, kMagic.size()) != kMagic) {
+  if (bytes.substr(0, kNpyMagic.size()) != kNpyMagic) {
     throw InputError(name + (bytes.empty() ? ": is empty: expected an npy array"
                                            : ": is not an npy array"));
   }
@@ -262,7 +262,7 @@ std::string FormatNpyHeader(NpyType type,
   constexpr std::size_t kFixed = 10;
   text.append(63 - (kFixed + text.size()) % 64, ' ');
   text += '\n';
-  std::string head(kMagic);
+  std::string head(kNpyMagic);
   head += {1, 0};
   head += static_cast<char>(text.size() & 0xff);
   head += static_cast<char>(text.size() >> 8);

@@ -24,13 +24,13 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32);
 
-constexpr char kMagic[12] = {
+constexpr char kPc2Magic[12] = {
     'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
 
 Header ParseHeader(std::string_view bytes, const std::string& name) {
   Header header;
   if (bytes.size() < sizeof(header) ||
-      std::memcmp(bytes.data(), kMagic, sizeof(kMagic)) != 0) {
+      std::memcmp(bytes.data(), kPc2Magic, sizeof(kPc2Magic)) != 0) {
     throw InputError(name + ": expected a point cache (POINTCACHE2)");
   }
   std::memcpy(&header, bytes.data(), sizeof(header));
@@ -101,7 +101,7 @@ PointCache ReadPc2(const std::string& path) {
 
 std::string FormatPc2(const PointCache& cache) {
   Header header;
-  std::memcpy(header.magic, kMagic, sizeof(kMagic));
+  std::memcpy(header.magic, kPc2Magic, sizeof(kPc2Magic));
   header.version = 1;
   header.num_points = cache.samples.empty()
                           ? 0

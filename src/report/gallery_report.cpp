@@ -3,21 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "invsim/report/web_page.h"
+#include "text_line.h"
 
 namespace invsim {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string Line(const char* format, auto... values) {
-  char line[400];
-  std::snprintf(line, sizeof(line), format, values...);
-  return line;
-}
 
 const char* Word(const GalleryRow& row) {
   if (row.known()) return "border";

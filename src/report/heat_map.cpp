@@ -14,25 +14,26 @@ namespace invsim {
 namespace {
 
 constexpr double kCellWidth = 50, kCellHeight = 34;
-constexpr double kLeft = 92, kTop = 44, kLegend = 120;
+constexpr double kMapLeft = 92, kMapTop = 44, kLegend = 120;
 constexpr int kLegendSteps = 48;
 
 // Even steps in lightness, told apart in the common kinds of colour blindness
 // and in grey.
 using Rgb = std::array<double, 3>;
-constexpr Rgb kColors[] = {{247, 251, 255},
-                           {198, 219, 239},
-                           {107, 174, 214},
-                           {33, 113, 181},
-                           {8, 48, 107}};
+constexpr Rgb kMapColors[] = {{247, 251, 255},
+                              {198, 219, 239},
+                              {107, 174, 214},
+                              {33, 113, 181},
+                              {8, 48, 107}};
 
 Rgb ColorAt(double share) {
-  constexpr int kLast = static_cast<int>(std::size(kColors)) - 1;
+  constexpr int kLast = static_cast<int>(std::size(kMapColors)) - 1;
   const double at = kLast * std::clamp(share, 0.0, 1.0);
   const int k = std::min(static_cast<int>(at), kLast - 1);
   Rgb color;
   for (int c = 0; c < 3; ++c)
-    color[c] = (1 - (at - k)) * kColors[k][c] + (at - k) * kColors[k + 1][c];
+    color[c] =
+        (1 - (at - k)) * kMapColors[k][c] + (at - k) * kMapColors[k + 1][c];
   return color;
 }
 
@@ -49,12 +50,12 @@ std::string Css(const Rgb& color) {
 
 bool Drawn(double value) { return std::isfinite(value) && value > 0; }
 
-class Drawing {
+class MapDrawing {
  public:
-  explicit Drawing(const HeatMap& map)
+  explicit MapDrawing(const HeatMap& map)
       : map_(map),
-        right_(kLeft + kCellWidth * static_cast<double>(map.x.size())),
-        bottom_(kTop + kCellHeight * static_cast<double>(map.y.size())) {
+        right_(kMapLeft + kCellWidth * static_cast<double>(map.x.size())),
+        bottom_(kMapTop + kCellHeight * static_cast<double>(map.y.size())) {
     for (const std::vector<double>& row : map.values)
       for (const double value : row)
         if (Drawn(value)) {
@@ -75,13 +76,13 @@ class Drawing {
          << "</title><style>text{font:12px sans-serif}.title{font:bold 15px "
             "sans-serif}.mark{font:bold 12px sans-serif}</style>"
             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>";
-    Text(kLeft, 24, "start", map_.title, "class=\"title\"");
+    Text(kMapLeft, 24, "start", map_.title, "class=\"title\"");
     for (size_t j = 0; j < map_.y.size(); ++j)
       for (size_t i = 0; i < map_.x.size(); ++i) Cell(i, j);
     Axes();
     Legend();
     for (size_t k = 0; k < map_.notes.size(); ++k)
-      Text(kLeft,
+      Text(kMapLeft,
            bottom_ + 62 + 18 * static_cast<double>(k),
            "start",
            map_.notes[k],
@@ -106,7 +107,7 @@ class Drawing {
 
   void Cell(size_t i, size_t j) {
     const double value = map_.values[j][i];
-    const double x = kLeft + kCellWidth * static_cast<double>(i);
+    const double x = kMapLeft + kCellWidth * static_cast<double>(i);
     const double y = bottom_ - kCellHeight * static_cast<double>(j + 1);
     const std::string color =
         Drawn(value) ? Css(ColorAt(Share(value))) : "#ffffff";
@@ -134,46 +135,46 @@ class Drawing {
 
   void Axes() {
     for (size_t i = 0; i < map_.x.size(); ++i)
-      Text(kLeft + kCellWidth * (static_cast<double>(i) + 0.5),
+      Text(kMapLeft + kCellWidth * (static_cast<double>(i) + 0.5),
            bottom_ + 17,
            "middle",
            map_.x[i],
            "");
     for (size_t j = 0; j < map_.y.size(); ++j)
-      Text(kLeft - 7,
+      Text(kMapLeft - 7,
            bottom_ - kCellHeight * (static_cast<double>(j) + 0.5) + 4,
            "end",
            map_.y[j],
            "");
-    Text((kLeft + right_) / 2, bottom_ + 38, "middle", map_.x_title, "");
+    Text((kMapLeft + right_) / 2, bottom_ + 38, "middle", map_.x_title, "");
     std::ostringstream turn;
-    turn << "transform=\"rotate(-90 22 " << (kTop + bottom_) / 2 << ")\"";
-    Text(22, (kTop + bottom_) / 2, "middle", map_.y_title, turn.str());
+    turn << "transform=\"rotate(-90 22 " << (kMapTop + bottom_) / 2 << ")\"";
+    Text(22, (kMapTop + bottom_) / 2, "middle", map_.y_title, turn.str());
   }
 
   void Legend() {
-    const double x = right_ + 42, step = (bottom_ - kTop) / kLegendSteps;
+    const double x = right_ + 42, step = (bottom_ - kMapTop) / kLegendSteps;
     for (int k = 0; k < kLegendSteps; ++k)
       out_ << "<rect x=\"" << x << "\" y=\"" << bottom_ - step * (k + 1)
            << "\" width=\"16\" height=\"" << step + 0.3 << "\" fill=\""
            << Css(ColorAt((k + 0.5) / kLegendSteps)) << "\"/>";
-    out_ << "<rect x=\"" << x << "\" y=\"" << kTop
-         << "\" width=\"16\" height=\"" << bottom_ - kTop
+    out_ << "<rect x=\"" << x << "\" y=\"" << kMapTop
+         << "\" width=\"16\" height=\"" << bottom_ - kMapTop
          << "\" fill=\"none\" stroke=\"#888\"/>";
     for (int k = 0; k <= 4; ++k) {
       const double share = 0.25 * k;
       const double value = std::pow(10, low_ + share * (high_ - low_));
       Text(x + 22,
-           bottom_ - share * (bottom_ - kTop) + 4,
+           bottom_ - share * (bottom_ - kMapTop) + 4,
            "start",
            ShortNumber(value < 10 ? std::round(10 * value) / 10
                                   : std::round(value)),
            "");
     }
     std::ostringstream turn;
-    turn << "transform=\"rotate(-90 " << x - 10 << " " << (kTop + bottom_) / 2
-         << ")\"";
-    Text(x - 10, (kTop + bottom_) / 2, "middle", map_.legend, turn.str());
+    turn << "transform=\"rotate(-90 " << x - 10 << " "
+         << (kMapTop + bottom_) / 2 << ")\"";
+    Text(x - 10, (kMapTop + bottom_) / 2, "middle", map_.legend, turn.str());
   }
 
   const HeatMap& map_;
@@ -185,6 +186,6 @@ class Drawing {
 
 }  // namespace
 
-std::string HeatMapSvg(const HeatMap& map) { return Drawing(map).Draw(); }
+std::string HeatMapSvg(const HeatMap& map) { return MapDrawing(map).Draw(); }
 
 }  // namespace invsim

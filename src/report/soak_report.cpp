@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/report/soak_report.h"
 
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include "text_line.h"
 
 namespace invsim {
 namespace {
@@ -13,12 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr size_t kSeedsShown = 12;
 constexpr size_t kScenesShown = 20;
-
-std::string Line(const char* format, auto... values) {
-  char line[300];
-  std::snprintf(line, sizeof(line), format, values...);
-  return line;
-}
 
 using SeedsByLimit = std::map<std::string, std::vector<std::uint64_t>>;
 

@@ -15,8 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kWidth = 720, kHeight = 420;
-constexpr double kLeft = 70, kRight = 700, kTop = 30, kBottom = 370;
+constexpr double kPlotWidth = 720, kPlotHeight = 420;
+constexpr double kPlotLeft = 70, kPlotRight = 700, kPlotTop = 30,
+                 kPlotBottom = 370;
 constexpr char kFront[] = "#0072b2";
 constexpr char kDominated[] = "#aaaaaa";
 // Of the keys of a spread.
@@ -120,10 +121,10 @@ class Axis {
   double high_ = 0;
 };
 
-class Drawing {
+class SweepDrawing {
  public:
-  explicit Drawing(const SweepReport& report)
-      : report_(report), x_(kLeft, kRight), y_(kBottom, kTop) {
+  explicit SweepDrawing(const SweepReport& report)
+      : report_(report), x_(kPlotLeft, kPlotRight), y_(kPlotBottom, kPlotTop) {
     out_.precision(6);
     for (const SweepResult& r : report.results) {
       if (!Drawable(r)) continue;
@@ -136,8 +137,8 @@ class Drawing {
   }
 
   std::string Draw() {
-    out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << kWidth
-         << ' ' << kHeight
+    out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 "
+         << kPlotWidth << ' ' << kPlotHeight
          << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
          << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     Axes();
@@ -165,15 +166,18 @@ class Drawing {
 
   void Axes() {
     for (const double tick : x_.Ticks()) {
-      Line(x_.At(tick), kTop, x_.At(tick), kBottom, "#eeeeee");
-      Text(x_.At(tick), kBottom + 16, "middle", ShortNumber(tick));
+      Line(x_.At(tick), kPlotTop, x_.At(tick), kPlotBottom, "#eeeeee");
+      Text(x_.At(tick), kPlotBottom + 16, "middle", ShortNumber(tick));
     }
     for (const double tick : y_.Ticks()) {
-      Line(kLeft, y_.At(tick), kRight, y_.At(tick), "#eeeeee");
-      Text(kLeft - 6, y_.At(tick) + 4, "end", ShortNumber(tick));
+      Line(kPlotLeft, y_.At(tick), kPlotRight, y_.At(tick), "#eeeeee");
+      Text(kPlotLeft - 6, y_.At(tick) + 4, "end", ShortNumber(tick));
     }
-    Text(0.5 * (kLeft + kRight), kBottom + 38, "middle", report_.cost_key);
-    Text(kLeft, kTop - 12, "start", report_.error_key);
+    Text(0.5 * (kPlotLeft + kPlotRight),
+         kPlotBottom + 38,
+         "middle",
+         report_.cost_key);
+    Text(kPlotLeft, kPlotTop - 12, "start", report_.error_key);
   }
 
   void Front() {
@@ -201,7 +205,7 @@ class Drawing {
                        ShortNumber(r.cost.median))
          << "</title></circle>\n";
     if (!r.pareto) return;
-    const bool room = x < kLeft + 0.75 * (kRight - kLeft);
+    const bool room = x < kPlotLeft + 0.75 * (kPlotRight - kPlotLeft);
     Text(room ? x + 8 : x - 8,
          y - 8,
          room ? "start" : "end",
@@ -362,7 +366,7 @@ std::string SweepCsv(const SweepReport& report) {
 }
 
 std::string SweepSvg(const SweepReport& report) {
-  return Drawing(report).Draw();
+  return SweepDrawing(report).Draw();
 }
 
 std::string SweepText(const SweepReport& report) {

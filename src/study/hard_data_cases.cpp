@@ -34,7 +34,7 @@ HardFit NotANumber() {
   return fit;
 }
 
-HardFit Millimetres() {
+HardFit CloudsInMillimetres() {
   HardFit fit = PlainFit();
   fit.start.reset();
   for (Points& cloud : fit.clouds) cloud *= 1000;
@@ -159,7 +159,10 @@ void AddDataCases(std::vector<HardFitCase>* cases) {
       [] { return WithSecondFrame(Points::Ones(3, 400)); },
       true);
   add("not_a_number", "a coordinate that is not a number", NotANumber, true);
-  add("millimetres", "metres by name, millimetres by size", Millimetres, true);
+  add("millimetres",
+      "metres by name, millimetres by size",
+      CloudsInMillimetres,
+      true);
   add("other_garment",
       "a garment that is too small by a third",
       SomeoneElsesGarment,

@@ -14,7 +14,7 @@
 namespace invsim {
 namespace {
 
-constexpr double kFramesPerSecond = 30;
+constexpr double kFitRate = 30;
 
 bool Finite(const BodySequence& body) {
   bool finite = body.shape.allFinite();
@@ -33,7 +33,7 @@ bool Finite(const Uncertainty& u) {
   return finite;
 }
 
-std::string Millimetres(double metres) {
+std::string InMillimetres(double metres) {
   return std::to_string(std::lround(1e3 * metres)) + " mm";
 }
 
@@ -72,7 +72,7 @@ void Judge(const HardFit& fit, bool cloth_finite, HardFitOutcome* o) {
     fail(r.usable() ? "usable against expectation" : "not usable");
   if (r.reason.empty()) fail("no reason given");
   if (o->body_error > fit.body_error)
-    fail("body off by " + Millimetres(o->body_error));
+    fail("body off by " + InMillimetres(o->body_error));
   const std::string further = fit.check ? fit.check(r) : "";
   if (!further.empty()) fail(further);
 }
@@ -99,7 +99,7 @@ HardFitOutcome RunHardFit(HardFit fit) {
         cloth_finite && f.cloth.x.allFinite() && f.cloth.v.allFinite();
   };
   FitScene scene{
-      body, fit.garment, &simulator, fit.clouds, kFramesPerSecond, fit.start};
+      body, fit.garment, &simulator, fit.clouds, kFitRate, fit.start};
   scene.optimize = fit.optimize;
   outcome.result = FitSequence(scene, fit.fit, observer);
   if (fit.truth) {

@@ -18,7 +18,7 @@
 namespace invsim {
 namespace {
 
-constexpr double kFramesPerSecond = 30;
+constexpr double kSceneRate = 30;
 
 const Garment& TankTop() {
   static const Garment garment = [] {
@@ -63,9 +63,8 @@ std::vector<Points> HardFitClouds(const BodySequence& truth) {
       MakeSetup(scene, body, TankTop(), FindMaterial(scene.material)));
   std::vector<BodyParameters> motion;
   for (int t = 0; t < truth.num_frames(); ++t) motion.push_back(truth.Frame(t));
-  RelaxationResult dressed = Relax({body, TankTop(), motion, kFramesPerSecond},
-                                   ShortRelaxation(),
-                                   &simulator);
+  RelaxationResult dressed = Relax(
+      {body, TankTop(), motion, kSceneRate}, ShortRelaxation(), &simulator);
   MeasurementOptions measurement;
   measurement.points = 400;
   const Scanner scanner(body.faces(), TankTop().faces, measurement, 3);
@@ -74,7 +73,7 @@ std::vector<Points> HardFitClouds(const BodySequence& truth) {
       &simulator,
       [&](int t) { return body.Vertices(motion[t]); },
       truth.num_frames(),
-      kFramesPerSecond,
+      kSceneRate,
       &dressed.cloth,
       [&](const SimulatedFrame& f) {
         clouds.push_back(scanner.Measure(f.frame, f.body, f.cloth.x).points);

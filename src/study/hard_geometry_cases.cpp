@@ -68,7 +68,7 @@ HardScene FarAway() {
   return scene;
 }
 
-HardScene Millimetres() {
+HardScene GarmentInMillimetres() {
   const BodyModel cube = CubeBody();
   Garment sheet = SheetAbove(cube.Vertices({}), 8, 0.003);
   sheet.placed *= 1000;
@@ -96,7 +96,8 @@ void AddGeometryCases(std::vector<HardCase>* cases) {
   add("two_pieces", "cloth in two parts that do not touch", TwoPieces);
   add("50k_vertices", "a sheet of 50,176 vertices", ManyVertices);
   add("10_km_away", "all of it 14 km from the origin", FarAway);
-  add("millimetres", "a garment in millimetres", Millimetres).refused = true;
+  add("millimetres", "a garment in millimetres", GarmentInMillimetres).refused =
+      true;
 }
 
 }  // namespace invsim

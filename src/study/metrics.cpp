@@ -11,18 +11,19 @@
 namespace invsim {
 namespace {
 
-constexpr double kMillimetres = 1000;
+constexpr double kMillimetresPerMetre = 1000;
 // From the skin itself: what is measured here is the covered, not contact.
 constexpr CoverRay kRay = {.inside = 0, .reach = kCoverRay};
 
 double MeanDistance(const Points& a, const Points& b) {
-  return kMillimetres * (a - b).colwise().norm().mean();
+  return kMillimetresPerMetre * (a - b).colwise().norm().mean();
 }
 
 ChamferDistance SurfaceChamfer(const TriangleMesh& a, const TriangleMesh& b) {
   const ChamferDistance metres = Chamfer(SubdivideMidpoint(a).mesh.vertices,
                                          SubdivideMidpoint(b).mesh.vertices);
-  return {kMillimetres * metres.a_to_b, kMillimetres * metres.b_to_a};
+  return {kMillimetresPerMetre * metres.a_to_b,
+          kMillimetresPerMetre * metres.b_to_a};
 }
 
 // Mean norm of the differences of the given order times fps^order.
@@ -57,7 +58,7 @@ void MeasurePenetration(const SurfaceIndex& body,
     inside += p.signed_distance < 0;
     deepest = std::max(deepest, -p.signed_distance);
   }
-  m->penetration = kMillimetres * deepest;
+  m->penetration = kMillimetresPerMetre * deepest;
   m->penetrating_share = inside / static_cast<double>(cloth.cols());
 }
 
@@ -89,7 +90,7 @@ void CompareCloth(const Reference& reference,
           .mesh);
   if (reference.points)
     m->points_to_surface =
-        kMillimetres *
+        kMillimetresPerMetre *
         DistancesToSurface(reference.points(t),
                            SurfaceIndex(seen.vertices, seen.faces))
             .mean();

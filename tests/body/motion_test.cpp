@@ -13,7 +13,7 @@
 namespace invsim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 Motion RandomMotion(int frames, std::mt19937* rng) {
   Motion motion;
@@ -87,7 +87,8 @@ TEST(Motion, InterpolateTurnsEvenlyTheShortWay) {
   BodyParameters left, right;
   left.pose[1] = 3.0;
   right.pose[1] = -3.0;  // 0.283 rad further, not 6 back
-  EXPECT_NEAR(std::abs(Interpolate(left, right, 0.5).pose[1]), kPi, 1e-12);
+  EXPECT_NEAR(
+      std::abs(Interpolate(left, right, 0.5).pose[1]), kHalfTurn, 1e-12);
 }
 
 TEST(Motion, InterpolateMeetsBothEnds) {
@@ -138,7 +139,7 @@ TEST(Motion, UnwrappedPosesAreTheSameRotationsWithoutJumps) {
     EXPECT_LT(PoseDistance(smooth.poses[t], motion.poses[t]), 1e-12);
     EXPECT_NEAR(smooth.poses[t][1], 0.4 * t, 1e-12);
   }
-  EXPECT_GT(smooth.poses.back()[1], 4 * kPi);
+  EXPECT_GT(smooth.poses.back()[1], 4 * kHalfTurn);
 }
 
 }  // namespace

@@ -101,18 +101,18 @@ VectorXd AsVector(const BodyParameters& p) {
   return v;
 }
 
-struct Reference {
+struct JetReference {
   Points positions;   // vertices, then joints
   MatrixXd jacobian;  // rows likewise
 };
 
-Reference Differentiate(const BodyModelData& data, const BodyParameters& p) {
+JetReference Differentiate(const BodyModelData& data, const BodyParameters& p) {
   const VectorXd values = AsVector(p);
   Eigen::Matrix<Jet, kNumBodyParameters, 1> jets;
   for (int k = 0; k < kNumBodyParameters; ++k) jets(k) = Jet(values(k), k);
   const auto posed = NaivePose<Jet>(data, jets);
-  Reference reference{Points(3, posed.cols()),
-                      MatrixXd(posed.size(), kNumBodyParameters)};
+  JetReference reference{Points(3, posed.cols()),
+                         MatrixXd(posed.size(), kNumBodyParameters)};
   for (Eigen::Index k = 0; k < posed.size(); ++k) {
     reference.positions.data()[k] = posed.data()[k].a;
     reference.jacobian.row(k) = posed.data()[k].v;
@@ -178,7 +178,7 @@ class PosedBodyCase : public ::testing::TestWithParam<PoseCase> {
   BodyModel model_;
   BodyParameters parameters_;
   std::shared_ptr<const PosedBody> posed_;
-  Reference reference_;
+  JetReference reference_;
 };
 
 TEST_P(PosedBodyCase, PositionsAgreeWithTheEquations) {

@@ -104,11 +104,11 @@ TEST(Rotation, ExpOfAQuarterTurn) {
 }
 
 TEST(Rotation, DerivativesAgreeWithDualNumbers) {
-  using Jet = ceres::Jet<double, 3>;
+  using Jet3 = ceres::Jet<double, 3>;
   for (const Vector3d& v : Vectors()) {
-    Eigen::Matrix<Jet, 3, 1> jets;
-    for (int c = 0; c < 3; ++c) jets(c) = Jet(v(c), c);
-    const Eigen::Matrix<Jet, 3, 3> expected = TextbookExp(jets);
+    Eigen::Matrix<Jet3, 3, 1> jets;
+    for (int c = 0; c < 3; ++c) jets(c) = Jet3(v(c), c);
+    const Eigen::Matrix<Jet3, 3, 3> expected = TextbookExp(jets);
     const std::array<Matrix3d, 3> d = ExpDerivatives(v);
     // The textbook form itself loses digits as 1e-16 / x; none at the linear
     // end.

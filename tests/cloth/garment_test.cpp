@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 // A vertical sheet of 1 m, facing +z, with its pattern.
-Garment Sheet(int n) {
+Garment UnitSheet(int n) {
   const TriangleMesh m = Grid(n);
   Garment g;
   g.placed = m.vertices;
@@ -74,7 +74,7 @@ TEST(Garment, HorizontalFacesAreLaidFlatToo) {
 }
 
 TEST(Garment, VertexAreasAddToThePattern) {
-  Garment g = Sheet(4);
+  Garment g = UnitSheet(4);
   g.placed *= 1.5;  // stretched: the pattern counts
   const VectorXd areas = VertexAreas(g);
   EXPECT_NEAR(areas.sum(), 1.0, 1e-14);
@@ -86,7 +86,7 @@ TEST(Garment, ReadsWithAndWithoutPattern) {
   const std::string path =
       (std::filesystem::temp_directory_path() / "invsim_garment_test.obj")
           .string();
-  Garment g = Sheet(3);
+  Garment g = UnitSheet(3);
   g.rest.array() *= 0.9;
   WriteObj(path, {g.placed, g.faces, g.rest, g.rest_faces});
   const Garment with = ReadGarment(path);
@@ -113,7 +113,7 @@ class BadGarment : public ::testing::Test {
                 ThrowsMessage<InputError>(AllOf(
                     ::testing::StartsWith("shirt.obj: "), HasSubstr(text))));
   }
-  Garment g_ = Sheet(2);
+  Garment g_ = UnitSheet(2);
 };
 
 TEST_F(BadGarment, Centimetres) {

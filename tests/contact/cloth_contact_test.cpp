@@ -10,7 +10,7 @@
 namespace invsim {
 namespace {
 
-constexpr double kDt = 0.005;
+constexpr double kStep = 0.005;
 
 ClothContact Source(PairFeature feature) {
   ClothContact source;
@@ -50,10 +50,10 @@ TEST_P(ClothPlaneTest, NormalWeightsAndGap) {
   const SelfContactOptions options;
   ClothContact source = Source(GetParam());
   const PairPoints x = Near(GetParam(), 3);
-  ClothPlane plane = EvaluateClothPlane(options, kDt, source, x);
+  ClothPlane plane = EvaluateClothPlane(options, kStep, source, x);
   if (plane.distance < 0) {
     source.side = -1;
-    plane = EvaluateClothPlane(options, kDt, source, x);
+    plane = EvaluateClothPlane(options, kStep, source, x);
   }
   EXPECT_NEAR(plane.weights.sum(), 0, 1e-14);
   EXPECT_NEAR(plane.normal.norm(), 1, 1e-14);
@@ -61,7 +61,7 @@ TEST_P(ClothPlaneTest, NormalWeightsAndGap) {
   // The offset is all along the normal: the points are the nearest.
   EXPECT_LT((x * plane.weights - plane.distance * plane.normal).norm(), 1e-15);
   const double approach =
-      std::min((0.001 - plane.distance) / kDt, options.recovery_speed);
+      std::min((0.001 - plane.distance) / kStep, options.recovery_speed);
   EXPECT_LT((plane.velocity - approach * plane.normal).norm(), 1e-12);
 }
 
@@ -71,9 +71,9 @@ TEST_P(ClothPlaneTest, DerivativeMatchesDifferences) {
     const ClothContact source = Source(GetParam());
     const PairPoints x = Near(GetParam(), 5);
     const ClothPlaneJacobian jacobian =
-        DifferentiateClothPlane(options, kDt, source, x);
+        DifferentiateClothPlane(options, kStep, source, x);
     const auto values = [&](const PairPoints& at) {
-      const ClothPlane p = EvaluateClothPlane(options, kDt, source, at);
+      const ClothPlane p = EvaluateClothPlane(options, kStep, source, at);
       Eigen::Matrix<double, 10, 1> v;
       v << p.normal, p.velocity, p.weights;
       return v;
@@ -115,7 +115,7 @@ class ClothContactDetectorTest : public testing::Test {
         std::make_unique<ClothContactDetector>(SelfContact(garment_, options),
                                                garment_.faces,
                                                VectorXd::Constant(6, 1e-4));
-    detector_->Detect(kDt, garment_.placed, v0, &contacts_, &sources_);
+    detector_->Detect(kStep, garment_.placed, v0, &contacts_, &sources_);
   }
   int Count(PairFeature feature) const {
     return static_cast<int>(
@@ -175,7 +175,7 @@ TEST_F(ClothContactDetectorTest, SweepFindsWhatWasOutOfReach) {
     EXPECT_TRUE(source.swept);
     const Contact& c = contacts_[source.contact];
     // To go on down to the thickness is allowed, no further.
-    EXPECT_NEAR(c.normal.dot(c.velocity), -(0.05 - 0.001) / kDt, 1e-6);
+    EXPECT_NEAR(c.normal.dot(c.velocity), -(0.05 - 0.001) / kStep, 1e-6);
   }
   const VectorXd share = detector_->Stop(x1);
   EXPECT_LE(share.maxCoeff(), 0.2);

@@ -8,14 +8,14 @@
 namespace invsim {
 namespace {
 
-constexpr double kDt = 0.005;
+constexpr double kPlaneStep = 0.005;
 
 TEST(ContactPlane, RestingAboveAFaceAtRest) {
   BodyContactOptions options;
   Matrix3d corners;
   corners << 0, 0, 1, 0, 0, 0, 0, 1, 0;  // in the plane y = 0, facing up
   const ContactPlane plane = EvaluateContactPlane(options,
-                                                  kDt,
+                                                  kPlaneStep,
                                                   TriangleFeature::kFace,
                                                   1,
                                                   {0.2, 0.005, 0.3},
@@ -24,7 +24,8 @@ TEST(ContactPlane, RestingAboveAFaceAtRest) {
   EXPECT_LT((plane.normal - Vector3d::UnitY()).norm(), 1e-15);
   EXPECT_NEAR(plane.distance, 0.005, 1e-15);
   // It may fall by 3 mm within the step, no faster.
-  EXPECT_LT((plane.velocity - Vector3d(0, -0.003 / kDt, 0)).norm(), 1e-12);
+  EXPECT_LT((plane.velocity - Vector3d(0, -0.003 / kPlaneStep, 0)).norm(),
+            1e-12);
 }
 
 TEST(ContactPlane, MovesRigidlyWithTheFace) {
@@ -32,9 +33,9 @@ TEST(ContactPlane, MovesRigidlyWithTheFace) {
   Matrix3d corners;
   corners << 0, 0, 1, 0, 0, 0, 0, 1, 0;
   const Vector3d velocity(0.3, -1.2, 0.7);
-  const Matrix3d moved = corners.colwise() + Vector3d(kDt * velocity);
+  const Matrix3d moved = corners.colwise() + Vector3d(kPlaneStep * velocity);
   const ContactPlane plane = EvaluateContactPlane(options,
-                                                  kDt,
+                                                  kPlaneStep,
                                                   TriangleFeature::kFace,
                                                   1,
                                                   {0.2, options.thickness, 0.3},
@@ -48,7 +49,7 @@ TEST(ContactPlane, LeadsOutNoFasterThanTheRecoverySpeed) {
   Matrix3d corners;
   corners << 0, 0, 1, 0, 0, 0, 0, 1, 0;
   const ContactPlane plane = EvaluateContactPlane(options,
-                                                  kDt,
+                                                  kPlaneStep,
                                                   TriangleFeature::kFace,
                                                   -1,
                                                   {0.2, -0.03, 0.3},
@@ -76,7 +77,7 @@ TEST_P(ContactPlaneDerivative, MatchesDifferences) {
       const Eigen::Matrix<double, 21, 1> p = z + s * dz;
       const ContactPlane plane =
           EvaluateContactPlane(options,
-                               kDt,
+                               kPlaneStep,
                                feature,
                                1,
                                p.head<3>(),
@@ -88,7 +89,7 @@ TEST_P(ContactPlaneDerivative, MatchesDifferences) {
     };
     const ContactPlaneJacobian jacobian =
         DifferentiateContactPlane(options,
-                                  kDt,
+                                  kPlaneStep,
                                   feature,
                                   1,
                                   z.head<3>(),

@@ -3,15 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "dressed_mannequin.h"
 #include "invsim/fit/coverage.h"
 
 namespace invsim {
 namespace {
-
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 class BodyPoints : public ::testing::Test {
  protected:

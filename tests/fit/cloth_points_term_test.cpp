@@ -17,7 +17,6 @@
 namespace invsim {
 namespace {
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr int kFrames = 3;
 
 // A tube of cloth on the trunk of a mannequin that leans and shifts.

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-
 BodySequence Constant(double value) {
   BodySequence x;
   x.shape.setConstant(value);

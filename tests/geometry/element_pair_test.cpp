@@ -8,7 +8,7 @@
 namespace invsim {
 namespace {
 
-PairPoints Random(std::mt19937* random) {
+PairPoints RandomPair(std::mt19937* random) {
   std::normal_distribution<double> normal;
   return PairPoints::NullaryExpr([&] { return normal(*random); });
 }
@@ -18,7 +18,7 @@ TEST(ElementPair, NearestPointsAreNearerThanAllOthers) {
   std::mt19937 random(4);
   for (const PairKind kind : {PairKind::kVertexFace, PairKind::kEdgeEdge}) {
     for (int trial = 0; trial < 50; ++trial) {
-      const PairPoints x = Random(&random);
+      const PairPoints x = RandomPair(&random);
       const NearestPoints nearest = Nearest(kind, x);
       EXPECT_NEAR(nearest.weights.sum(), 0, 1e-12);
       EXPECT_LT((x * nearest.weights - nearest.offset).norm(), 1e-12);
@@ -86,7 +86,7 @@ TEST(ElementPair, NeverLateOnRandomMoves) {
   int met = 0, passed = 0;
   for (const PairKind kind : {PairKind::kVertexFace, PairKind::kEdgeEdge}) {
     for (int trial = 0; trial < 400; ++trial) {
-      const PairPoints x0 = Random(&random), x1 = Random(&random);
+      const PairPoints x0 = RandomPair(&random), x1 = RandomPair(&random);
       const double gap = 0.01 * Nearest(kind, x0).distance;
       const double t = FirstTimeWithin(gap, kind, x0, x1);
       const double last = std::min(t, 1.0);

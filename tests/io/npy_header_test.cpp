@@ -4,6 +4,7 @@
 
 #include "invsim/base/error.h"
 #include "invsim/io/npy.h"
+#include "npy_bytes.h"
 
 namespace invsim {
 namespace {
@@ -13,26 +14,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-// A version-1 file with the head and data given.
-std::string NpyBytes(std::string header, const std::string& data) {
-  header += '\n';
-  std::string bytes("\x93NUMPY\x01\x00", 8);
-  bytes += static_cast<char>(header.size() & 0xff);
-  bytes += static_cast<char>(header.size() >> 8);
-  return bytes + header + data;
-}
-
-std::string Header(const std::string& descr,
-                   const std::string& shape,
-                   bool fortran = false) {
-  return "{'descr': '" + descr +
-         "', 'fortran_order': " + (fortran ? "True" : "False") +
-         ", 'shape': " + shape + ", }";
-}
-
 TEST(NpyHeader, ObjectsAreRefusedWithTheRemedy) {
   EXPECT_THAT(
-      [] { ParseNpy(NpyBytes(Header("|O", "()"), "\x80\x04."), "a.npy"); },
+      [] { ParseNpy(NpyBytes(NpyHead("|O", "()"), "\x80\x04."), "a.npy"); },
       ThrowsMessage<InputError>(AllOf(HasSubstr("a.npy: holds Python objects"),
                                       HasSubstr("python3 -c"))));
 }
@@ -42,12 +26,12 @@ TEST(NpyHeader, HugeShapesAreRefusedWithoutMemory) {
                             "(3037000500, 3037000500)",
                             "(4294967296, 4294967296, 4294967296)"}) {
     EXPECT_THAT(
-        [&] { ParseNpy(NpyBytes(Header("<f8", shape), "12345678"), "a.npy"); },
+        [&] { ParseNpy(NpyBytes(NpyHead("<f8", shape), "12345678"), "a.npy"); },
         ThrowsMessage<InputError>(HasSubstr("does not match the 8 bytes")))
         << shape;
   }
   EXPECT_THROW(
-      ParseNpy(NpyBytes(Header("<U0", "(1000000000000,)"), ""), "a.npy"),
+      ParseNpy(NpyBytes(NpyHead("<U0", "(1000000000000,)"), ""), "a.npy"),
       InputError);
 }
 
@@ -58,7 +42,7 @@ TEST(NpyHeader, TooManyDimensionsAreRefused) {
     return shape + ")";
   };
   const auto parse = [&](int count) {
-    return ParseNpy(NpyBytes(Header("<i2", ones(count), true), "ab"), "a.npy");
+    return ParseNpy(NpyBytes(NpyHead("<i2", ones(count), true), "ab"), "a.npy");
   };
   EXPECT_EQ(parse(64).size(), 1u);
   EXPECT_THAT([&] { parse(65); },
@@ -67,16 +51,16 @@ TEST(NpyHeader, TooManyDimensionsAreRefused) {
 }
 
 TEST(NpyHeader, DamagedHeadersAreRefused) {
-  const std::string good = NpyBytes(Header("<f8", "(1,)"), "12345678");
+  const std::string good = NpyBytes(NpyHead("<f8", "(1,)"), "12345678");
   for (std::size_t size = 0; size < good.size(); ++size) {
     EXPECT_THROW(ParseNpy(good.substr(0, size), "a"), InputError) << size;
   }
   for (const std::string& header :
-       {Header("<f8", "(-1,)"),
-        Header("<c16", "(1,)"),
-        Header("", "(1,)"),
-        Header("<f16", "(1,)"),
-        Header("<i4x", "(1,)"),
+       {NpyHead("<f8", "(-1,)"),
+        NpyHead("<c16", "(1,)"),
+        NpyHead("", "(1,)"),
+        NpyHead("<f16", "(1,)"),
+        NpyHead("<i4x", "(1,)"),
         std::string("{}"),
         std::string("{'descr': [('a', '<f8')], 'fortran_order': False, "
                     "'shape': (1,), }"),
@@ -88,7 +72,7 @@ TEST(NpyHeader, DamagedHeadersAreRefused) {
 }
 
 TEST(NpyHeader, Python2ShapeIsRead) {
-  const auto array = ParseNpy(NpyBytes(Header("|u1", "(2L,)"), "ab"), "a.npy");
+  const auto array = ParseNpy(NpyBytes(NpyHead("|u1", "(2L,)"), "ab"), "a.npy");
   EXPECT_THAT(array.shape(), ElementsAre(2));
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "invsim/base/error.h"
+#include "npy_bytes.h"
 
 namespace invsim {
 namespace {
@@ -13,23 +14,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-// A version-1 file with the head and data given.
-std::string NpyBytes(std::string header, const std::string& data) {
-  header += '\n';
-  std::string bytes("\x93NUMPY\x01\x00", 8);
-  bytes += static_cast<char>(header.size() & 0xff);
-  bytes += static_cast<char>(header.size() >> 8);
-  return bytes + header + data;
-}
-
-std::string Header(const std::string& descr,
-                   const std::string& shape,
-                   bool fortran = false) {
-  return "{'descr': '" + descr +
-         "', 'fortran_order': " + (fortran ? "True" : "False") +
-         ", 'shape': " + shape + ", }";
-}
 
 NpyArray RoundTrip(const NpyArray& array) {
   return ParseNpy(FormatNpy(array), "a.npy");
@@ -69,7 +53,7 @@ TEST(Npy, TextSurvives) {
       "neutral", "", "h\u00e9 \u20ac \U0001f600"};
   EXPECT_EQ(RoundTrip(NpyArray::Text({3}, words)).ToStrings(""), words);
   const auto bytes = ParseNpy(
-      NpyBytes(Header("|S6", "()"), std::string("male\0\0", 6)), "a.npy");
+      NpyBytes(NpyHead("|S6", "()"), std::string("male\0\0", 6)), "a.npy");
   EXPECT_THAT(bytes.ToStrings(""), ElementsAre("male"));
 }
 
@@ -90,11 +74,11 @@ TEST(Npy, BytesThatAreNoUtf8AreLatin1) {
 TEST(Npy, FortranOrderIsTurned) {
   // [[0 1 2] [3 4 5]] column by column.
   const auto array = ParseNpy(
-      NpyBytes(Header("|i1", "(2, 3)", true), std::string("\0\3\1\4\2\5", 6)),
+      NpyBytes(NpyHead("|i1", "(2, 3)", true), std::string("\0\3\1\4\2\5", 6)),
       "a.npy");
   EXPECT_THAT(array.ToIntegers(""), ElementsAre(0, 1, 2, 3, 4, 5));
   // Element (i, j, k) of a (2, 2, 2) array is at i + 2 j + 4 k.
-  const auto cube = ParseNpy(NpyBytes(Header("|u1", "(2, 2, 2)", true),
+  const auto cube = ParseNpy(NpyBytes(NpyHead("|u1", "(2, 2, 2)", true),
                                       std::string("\0\1\2\3\4\5\6\7", 8)),
                              "a.npy");
   EXPECT_THAT(cube.ToIntegers(""), ElementsAre(0, 4, 2, 6, 1, 5, 3, 7));
@@ -102,10 +86,10 @@ TEST(Npy, FortranOrderIsTurned) {
 
 TEST(Npy, OtherByteOrderAndHalfPrecisionAreRead) {
   const auto big = ParseNpy(
-      NpyBytes(Header(">i4", "(1,)"), std::string("\0\0\1\2", 4)), "a.npy");
+      NpyBytes(NpyHead(">i4", "(1,)"), std::string("\0\0\1\2", 4)), "a.npy");
   EXPECT_THAT(big.ToIntegers(""), ElementsAre(258));
   const auto half = ParseNpy(
-      NpyBytes(Header("<f2", "(1,)"), std::string("\x00\x3e", 2)), "a.npy");
+      NpyBytes(NpyHead("<f2", "(1,)"), std::string("\x00\x3e", 2)), "a.npy");
   EXPECT_THAT(half.ToDoubles(""), ElementsAre(1.5));
 }
 

@@ -19,7 +19,7 @@ using ::testing::ThrowsMessage;
 // in Fortran order, o = an object array holding a dict, z = 2.5 (0-d). Its
 // local headers carry 64-bit sizes.
 // clang-format off
-constexpr unsigned char kCompressed[] = {
+constexpr unsigned char kDeflated[] = {
     80, 75, 3, 4, 20, 0, 0, 0, 8, 0, 0, 0, 33, 0, 93, 67, 203, 137, 83, 0, 0, 0,
     152, 0, 0, 0, 5, 0, 20, 0, 102, 46, 110, 112, 121, 1, 0, 16, 0, 152, 0, 0,
     0, 0, 0, 0, 0, 83, 0, 0, 0, 0, 0, 0, 0, 155, 236, 23, 234, 27, 16, 201, 200,
@@ -60,7 +60,7 @@ constexpr unsigned char kCompressed[] = {
 // clang-format on
 
 std::string Compressed() {
-  return {reinterpret_cast<const char*>(kCompressed), sizeof(kCompressed)};
+  return {reinterpret_cast<const char*>(kDeflated), sizeof(kDeflated)};
 }
 
 TEST(Npz, NumPysArchiveIsRead) {

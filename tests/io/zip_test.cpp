@@ -13,16 +13,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-struct Packing {
-  bool deflate;
-  bool zip64;
-};
-
-class ZipPacking : public ::testing::TestWithParam<Packing> {};
+class ZipPacking : public ::testing::TestWithParam<ZipOptions> {};
 
 TEST_P(ZipPacking, EveryTruncationIsAnError) {
-  const ZipOptions options{GetParam().deflate, GetParam().zip64};
-  const std::string bytes = BuildZip({{"a", "some text"}, {"b", ""}}, options);
+  const std::string bytes =
+      BuildZip({{"a", "some text"}, {"b", ""}}, GetParam());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     EXPECT_THROW(ZipArchive::Parse(bytes.substr(0, size), "a.npz"), InputError)
         << size;
@@ -30,9 +25,8 @@ TEST_P(ZipPacking, EveryTruncationIsAnError) {
 }
 
 TEST_P(ZipPacking, DamageIsAnErrorOrHarmless) {
-  const ZipOptions options{GetParam().deflate, GetParam().zip64};
   const std::string text = "some text that is long enough to be deflated";
-  const std::string bytes = BuildZip({{"a", text}}, options);
+  const std::string bytes = BuildZip({{"a", text}}, GetParam());
   int caught = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     for (const int flip : {0x01, 0x80, 0xff}) {
@@ -53,10 +47,10 @@ TEST_P(ZipPacking, DamageIsAnErrorOrHarmless) {
 
 INSTANTIATE_TEST_SUITE_P(All,
                          ZipPacking,
-                         ::testing::Values(Packing{false, false},
-                                           Packing{true, false},
-                                           Packing{false, true},
-                                           Packing{true, true}));
+                         ::testing::Values(ZipOptions{false, false},
+                                           ZipOptions{true, false},
+                                           ZipOptions{false, true},
+                                           ZipOptions{true, true}));
 
 TEST(Zip, MissingMemberIsNamed) {
   const auto zip = ZipArchive::Parse(BuildZip({{"a", "1"}}), "x.npz");

@@ -23,16 +23,10 @@ std::vector<ZipMember> Members() {
           {"empty.npy", ""}};
 }
 
-struct Packing {
-  bool deflate;
-  bool zip64;
-};
-
-class ZipWriting : public ::testing::TestWithParam<Packing> {};
+class ZipWriting : public ::testing::TestWithParam<ZipOptions> {};
 
 TEST_P(ZipWriting, GivesBackWhatWasPacked) {
-  const ZipOptions options{GetParam().deflate, GetParam().zip64};
-  const auto zip = ZipArchive::Parse(BuildZip(Members(), options), "a.npz");
+  const auto zip = ZipArchive::Parse(BuildZip(Members(), GetParam()), "a.npz");
   EXPECT_THAT(zip.Names(), ElementsAre("zeros.npy", "noise.npy", "empty.npy"));
   for (const ZipMember& member : Members()) {
     EXPECT_EQ(zip.Extract(member.name), member.bytes) << member.name;
@@ -41,10 +35,10 @@ TEST_P(ZipWriting, GivesBackWhatWasPacked) {
 
 INSTANTIATE_TEST_SUITE_P(All,
                          ZipWriting,
-                         ::testing::Values(Packing{false, false},
-                                           Packing{true, false},
-                                           Packing{false, true},
-                                           Packing{true, true}));
+                         ::testing::Values(ZipOptions{false, false},
+                                           ZipOptions{true, false},
+                                           ZipOptions{false, true},
+                                           ZipOptions{true, true}));
 
 TEST(ZipWriter, DeflateMakesZerosSmall) {
   EXPECT_LT(BuildZip({{"z", std::string(300000, '\0')}}).size(), 1000u);

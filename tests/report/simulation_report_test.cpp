@@ -11,7 +11,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-SimulationReport Example() {
+SimulationReport ExampleSimulation() {
   SimulationReport r;
   r.body = "b.npz";
   r.garment = "g\xff.obj";  // no UTF-8
@@ -41,7 +41,7 @@ SimulationReport Example() {
 }
 
 TEST(SimulationReport, CountsMissedStepsInTheVerdict) {
-  SimulationReport r = Example();
+  SimulationReport r = ExampleSimulation();
   EXPECT_EQ(MissedSteps(r), 2);
   EXPECT_THAT(Verdict(r),
               AllOf(HasSubstr("Complete: 3 of 3 frames"),
@@ -53,7 +53,7 @@ TEST(SimulationReport, CountsMissedStepsInTheVerdict) {
 }
 
 TEST(SimulationReport, StatusIsOfTheFirstPartThatDidNotComplete) {
-  SimulationReport r = Example();
+  SimulationReport r = ExampleSimulation();
   EXPECT_EQ(Status(r), RunStatus::kComplete);
   r.sequence.status = RunStatus::kInterrupted;
   EXPECT_EQ(Status(r), RunStatus::kInterrupted);
@@ -63,7 +63,8 @@ TEST(SimulationReport, StatusIsOfTheFirstPartThatDidNotComplete) {
 }
 
 TEST(SimulationReport, JsonIsVersionedAndHoldsEveryFrame) {
-  const nlohmann::json json = nlohmann::json::parse(SimulationJson(Example()));
+  const nlohmann::json json =
+      nlohmann::json::parse(SimulationJson(ExampleSimulation()));
   EXPECT_EQ(json["schema"], "invsim.simulation");
   EXPECT_EQ(json["schema_version"], 1);
   EXPECT_EQ(json["status"], "complete");
@@ -84,7 +85,7 @@ TEST(SimulationReport, JsonIsVersionedAndHoldsEveryFrame) {
 }
 
 TEST(SimulationReport, TextSaysWhatHappenedInBothParts) {
-  const std::string text = SimulationText(Example());
+  const std::string text = SimulationText(ExampleSimulation());
   EXPECT_THAT(text,
               AllOf(HasSubstr("Relaxation: 40 frames, at rest"),
                     HasSubstr("mean speed 0.8 cm/s"),
@@ -94,7 +95,7 @@ TEST(SimulationReport, TextSaysWhatHappenedInBothParts) {
 }
 
 TEST(SimulationReport, ChartsHaveOneValuePerFrame) {
-  for (const Chart& chart : SimulationCharts(Example())) {
+  for (const Chart& chart : SimulationCharts(ExampleSimulation())) {
     EXPECT_EQ(chart.x.size(), 3u) << chart.title;
     for (const ChartSeries& s : chart.series)
       EXPECT_EQ(s.values.size(), 3u) << chart.title;

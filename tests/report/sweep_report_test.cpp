@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-SweepReport Example() {
+SweepReport ExampleSweep() {
   SweepReport report;
   report.command = "simulate";
   report.error_key = "error_mm";
@@ -46,22 +46,23 @@ size_t Count(const std::string& text, const std::string& part) {
 }
 
 TEST(SweepReport, KeepsFailuresAsResults) {
-  const auto json = nlohmann::json::parse(SweepJson(Example()));
+  const auto json = nlohmann::json::parse(SweepJson(ExampleSweep()));
   ASSERT_EQ(json["results"].size(), 4u);
   EXPECT_EQ(json["results"][3]["usable"], false);
   EXPECT_EQ(json["results"][3]["exit_codes"][0], 5);
   EXPECT_EQ(json["results"][3]["failure"], "it broke");
   EXPECT_EQ(json["results"][1]["pareto"], true);
   EXPECT_EQ(json["results"][2]["pareto"], false);
-  EXPECT_THAT(SweepText(Example()), HasSubstr("failed (it broke)  broken"));
-  const std::string csv = SweepCsv(Example());
+  EXPECT_THAT(SweepText(ExampleSweep()),
+              HasSubstr("failed (it broke)  broken"));
+  const std::string csv = SweepCsv(ExampleSweep());
   EXPECT_EQ(Count(csv, "\n"), 5u);
   EXPECT_THAT(csv, HasSubstr("name,options,usable,pareto,error_mm,seconds\n"));
   EXPECT_THAT(csv, HasSubstr("0,0,,\n"));
 }
 
 TEST(SweepReport, ChartMarksTheFrontAndGreysTheRest) {
-  const std::string svg = SweepSvg(Example());
+  const std::string svg = SweepSvg(ExampleSweep());
   EXPECT_EQ(Count(svg, "<circle"), 3u);  // not what failed
   EXPECT_EQ(Count(svg, "fill=\"#0072b2\"><title>"), 2u);
   EXPECT_EQ(Count(svg, "fill=\"#aaaaaa\"><title>"), 1u);
@@ -72,7 +73,7 @@ TEST(SweepReport, ChartMarksTheFrontAndGreysTheRest) {
 }
 
 TEST(SweepReport, ChartHasTicksAndLabelsThatFit) {
-  SweepReport report = Example();
+  SweepReport report = ExampleSweep();
   report.results[0].setting.name = "a_name_that_is_rather_long";
   const std::string svg = SweepSvg(report);
   // The dearest stands at the right edge: its label ends there.
@@ -86,7 +87,7 @@ TEST(SweepReport, ChartHasTicksAndLabelsThatFit) {
 }
 
 TEST(SweepReport, SpreadAndWorkStandBesideTheMedian) {
-  SweepReport report = Example();
+  SweepReport report = ExampleSweep();
   auto& values = report.results[0].values;
   values.emplace_back("seconds_least", 7);
   values.emplace_back("seconds_largest", 9.5);
@@ -104,14 +105,14 @@ TEST(SweepReport, SpreadAndWorkStandBesideTheMedian) {
 }
 
 TEST(SweepReport, PageSaysTheVerdict) {
-  const std::string page = SweepHtml(Example());
+  const std::string page = SweepHtml(ExampleSweep());
   EXPECT_THAT(page, HasSubstr("best error 1: good"));
   EXPECT_THAT(page, HasSubstr("failed: it broke"));
   EXPECT_THAT(page, HasSubstr("<svg"));
 }
 
 TEST(SweepReport, NothingUsableStillMakesAChart) {
-  SweepReport report = Example();
+  SweepReport report = ExampleSweep();
   report.results = {report.results[3]};
   EXPECT_THAT(SweepSvg(report), Not(HasSubstr("nan")));
   EXPECT_THAT(SweepText(report), HasSubstr("no setting succeeded"));

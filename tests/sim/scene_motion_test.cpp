@@ -10,7 +10,7 @@
 namespace invsim {
 namespace {
 
-constexpr double kRate = 30;  // frames per second
+constexpr double kMotionRate = 30;  // frames per second
 
 // The ball as a whole, at the given places along x.
 std::vector<BodyParameters> AlongX(const std::vector<double>& places) {
@@ -23,7 +23,8 @@ std::vector<BodyParameters> AlongX(const std::vector<double>& places) {
 class MeasureMotionTest : public ::testing::Test {
  protected:
   SceneMotion Measure(const std::vector<BodyParameters>& motion) {
-    return MeasureMotion({body_, sheet_, motion, kRate}, relaxation_, 0.002);
+    return MeasureMotion(
+        {body_, sheet_, motion, kMotionRate}, relaxation_, 0.002);
   }
 
   BodyModel body_ = BallBody();
@@ -33,18 +34,19 @@ class MeasureMotionTest : public ::testing::Test {
 
 TEST_F(MeasureMotionTest, OfABodyInFreeFallIsThatOfTheFall) {
   std::vector<double> places;
-  for (int t = 0; t < 10; ++t) places.push_back(4.9 * t * t / kRate / kRate);
+  for (int t = 0; t < 10; ++t)
+    places.push_back(4.9 * t * t / kMotionRate / kMotionRate);
   relaxation_.lead_in_seconds = 0.1;  // so that it does not set out from rest
   const SceneMotion m = Measure(AlongX(places));
   EXPECT_NEAR(m.acceleration, 9.8, 1e-9);
-  EXPECT_NEAR(m.speed, 4.9 * (81 - 64) / kRate, 1e-9);
-  EXPECT_EQ(m.frames_per_second, kRate);
+  EXPECT_NEAR(m.speed, 4.9 * (81 - 64) / kMotionRate, 1e-9);
+  EXPECT_EQ(m.frames_per_second, kMotionRate);
 }
 
 TEST_F(MeasureMotionTest, SettingOutFromRestIsAnAcceleration) {
   const SceneMotion m = Measure(AlongX({0, 0.02, 0.04}));
-  EXPECT_NEAR(m.speed, 0.02 * kRate, 1e-9);
-  EXPECT_NEAR(m.acceleration, 0.02 * kRate * kRate, 1e-9);
+  EXPECT_NEAR(m.speed, 0.02 * kMotionRate, 1e-9);
+  EXPECT_NEAR(m.acceleration, 0.02 * kMotionRate * kMotionRate, 1e-9);
 }
 
 TEST_F(MeasureMotionTest, StandingStillIsNone) {
@@ -71,8 +73,8 @@ TEST_F(MeasureMotionTest, OfPointsIsTheStepFromCloudToCloud) {
     plane.col(i) = Vector3d(0.01 * (i % 20), 0, 0.01 * (i / 20));
   Points raised = plane;
   raised.row(1).array() += 0.004;
-  const SceneMotion m = MeasureMotion({plane, plane, raised}, kRate);
-  EXPECT_NEAR(m.speed, 0.004 * kRate, 1e-12);
+  const SceneMotion m = MeasureMotion({plane, plane, raised}, kMotionRate);
+  EXPECT_NEAR(m.speed, 0.004 * kMotionRate, 1e-12);
   EXPECT_TRUE(std::isinf(m.acceleration));
   EXPECT_TRUE(m.layers_can_meet);
 }

@@ -14,14 +14,14 @@ namespace invsim {
 namespace {
 
 constexpr double kFrame = 1 / 60.0;
-constexpr double kGravity = 9.81;
+constexpr double kFall = 9.81;
 
 class SelfContactTest : public testing::Test {
  protected:
   // `gravity` 0 leaves it out.
   void Make(const Garment& garment,
             const SelfContactOptions& options,
-            double gravity = kGravity,
+            double gravity = kFall,
             const TriangleMesh& body = {},
             std::vector<Pin> pins = {}) {
     garment_ = garment;
@@ -68,7 +68,7 @@ Garment PieceOnTable(double height) {
 TEST_F(SelfContactTest, LayersComeToRestAtTheThickness) {
   const Garment garment = PieceOnTable(0.01);
   SelfContactOptions options;
-  Make(garment, options, kGravity, {}, Hold(garment, kTable));
+  Make(garment, options, kFall, {}, Hold(garment, kTable));
   Run(60);
   double lowest = 1, highest = 0;
   for (int i = kTable; i < garment.num_vertices(); ++i) {
@@ -82,7 +82,7 @@ TEST_F(SelfContactTest, LayersComeToRestAtTheThickness) {
   // The table carries the weight of the piece.
   const Points& force = simulator_->contact_force();
   const double weight =
-      kGravity * simulator_->mass().tail(garment.num_vertices() - kTable).sum();
+      kFall * simulator_->mass().tail(garment.num_vertices() - kTable).sum();
   EXPECT_NEAR(
       force.rightCols(garment.num_vertices() - kTable).row(1).sum() / weight,
       1,
@@ -99,18 +99,17 @@ TEST_F(SelfContactTest, PieceOnASlopeSticksOrSlides) {
     const Garment garment = PieceOnTable(0.001);
     Make(garment,
          {.thickness = 0.001, .friction = mu},
-         kGravity,
+         kFall,
          {},
          Hold(garment, kTable));
     const int frames = 10;
     Run(frames);
-    const double slope =
-        kGravity * std::max(0.0, std::sin(a) - mu * std::cos(a));
+    const double slope = kFall * std::max(0.0, std::sin(a) - mu * std::cos(a));
     const int n = garment.num_vertices() - kTable;
     const Vector3d mean = state_.v.rightCols(n).rowwise().mean();
     if (slope == 0) {
       // What compliance lets creep: its weight share times g dt.
-      EXPECT_LT(mean.norm(), 1e-3 * kGravity * frames * kFrame);
+      EXPECT_LT(mean.norm(), 1e-3 * kFall * frames * kFrame);
     } else {
       EXPECT_NEAR(mean.x(), slope * frames * kFrame, 0.03 * mean.x());
     }
@@ -146,7 +145,7 @@ TEST_F(SelfContactTest, MomentumIsKept) {
 TEST_F(SelfContactTest, FastApproachDoesNotTunnel) {
   for (const double speed : {5.0, 25.0, 100.0}) {
     const Garment garment = PieceOnTable(0.05);
-    Make(garment, {}, kGravity, {}, Hold(garment, kTable));
+    Make(garment, {}, kFall, {}, Hold(garment, kTable));
     state_.v.rightCols(garment.num_vertices() - kTable)
         .row(1)
         .setConstant(-speed);
@@ -194,7 +193,7 @@ TEST_F(SelfContactTest, StripFoldsOntoItself) {
     strip.placed.col(i) = p;
   }
   SelfContactOptions options;
-  Make(strip, options, kGravity, Slab(0.3, 0.1));
+  Make(strip, options, kFall, Slab(0.3, 0.1));
   body_.row(1).array() -= 0.002;
   Run(40);
   EXPECT_GT(stats_.most_cloth_contacts, 50);
@@ -212,7 +211,7 @@ TEST_F(SelfContactTest, SheetDroppedOnEdgeCrumplesWithoutCrossing) {
     sheet.placed.col(i) = Vector3d(
         p.x(), 0.13 + p.z(), 0.004 * std::sin(40 * p.x()) + 0.05 * p.z());
   }
-  Make(sheet, {}, kGravity, Slab(0.3, 0.1));
+  Make(sheet, {}, kFall, Slab(0.3, 0.1));
   Run(40);
   EXPECT_GT(stats_.most_cloth_contacts, 50);
 }

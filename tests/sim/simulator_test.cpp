@@ -12,7 +12,7 @@
 namespace invsim {
 namespace {
 
-constexpr double kFrame = 1 / 60.0;
+constexpr double kFrameTime = 1 / 60.0;
 constexpr double kGravity = 9.8;  // the default
 
 TEST(Simulator, FreeFallIsExactForTheScheme) {
@@ -24,10 +24,10 @@ TEST(Simulator, FreeFallIsExactForTheScheme) {
   StepStats stats;
   const Points body = Icosphere(0.1, 1).vertices;
   for (int frame = 0; frame < 5; ++frame)
-    ASSERT_TRUE(simulator.Advance(body, body, kFrame, &state, &stats));
+    ASSERT_TRUE(simulator.Advance(body, body, kFrameTime, &state, &stats));
   // Implicit Euler: v_n = -g n dt, x_n = x_0 - g dt^2 n (n + 1)/2.
   const int n = 20;
-  const double dt = kFrame / 4;
+  const double dt = kFrameTime / 4;
   const double drop = kGravity * dt * dt * n * (n + 1) / 2;
   for (int i = 0; i < garment.num_vertices(); ++i) {
     EXPECT_LT((state.v.col(i) - Vector3d(0, -kGravity * n * dt, 0)).norm(),
@@ -55,7 +55,7 @@ struct Incline {
   bool Run(int frames) {
     for (int k = 0; k < frames; ++k)
       if (!simulator->Advance(
-              plate.vertices, plate.vertices, kFrame, &state, &stats))
+              plate.vertices, plate.vertices, kFrameTime, &state, &stats))
         return false;
     return stats.missed == 0;
   }
@@ -80,7 +80,7 @@ TEST(Simulator, ClothOnAnInclineSlidesAboveIt) {
   Incline scene(angle, mu);
   ASSERT_TRUE(scene.Run(30));
   const double expected =
-      kGravity * (std::sin(angle) - mu * std::cos(angle)) * 30 * kFrame;
+      kGravity * (std::sin(angle) - mu * std::cos(angle)) * 30 * kFrameTime;
   const double speed = scene.state.v.rowwise().mean().norm();
   EXPECT_NEAR(speed, expected, 0.01 * expected);
 }
@@ -118,7 +118,7 @@ TEST(Simulator, EnergyDoesNotGrowWithoutInput) {
       simulator.PotentialEnergy(state) + simulator.KineticEnergy(state);
   const double scale = kGravity * simulator.mass().sum() * 0.3;
   for (int frame = 0; frame < 500; ++frame) {
-    ASSERT_TRUE(simulator.Advance({}, {}, kFrame, &state, &stats));
+    ASSERT_TRUE(simulator.Advance({}, {}, kFrameTime, &state, &stats));
     const double now =
         simulator.PotentialEnergy(state) + simulator.KineticEnergy(state);
     ASSERT_LT(now, energy + 1e-3 * scale) << "frame " << frame;
@@ -137,7 +137,7 @@ TEST(Simulator, LeadsAStartInsideTheBodyOut) {
   StepStats stats;
   for (int frame = 0; frame < 30; ++frame)
     ASSERT_TRUE(simulator.Advance(
-        ball.vertices, ball.vertices, kFrame, &state, &stats));
+        ball.vertices, ball.vertices, kFrameTime, &state, &stats));
   EXPECT_EQ(stats.missed, 0);
   EXPECT_EQ(simulator.FindInside(ball.vertices, state), 0);
 }
@@ -152,7 +152,7 @@ TEST(Simulator, RepeatsExactly) {
     StepStats stats;
     for (int frame = 0; frame < 10; ++frame)
       ASSERT_TRUE(simulator.Advance(
-          ball.vertices, ball.vertices, kFrame, &state, &stats));
+          ball.vertices, ball.vertices, kFrameTime, &state, &stats));
     x = state.x;
   }
   EXPECT_EQ(end[0], end[1]);
@@ -167,7 +167,7 @@ TEST(Simulator, AFailureLeavesTheStateAlone) {
   const Points before = state.x;
   StepStats stats;
   const Points body = Icosphere(0.1, 2).vertices;
-  EXPECT_FALSE(simulator.Advance(body, body, kFrame, &state, &stats));
+  EXPECT_FALSE(simulator.Advance(body, body, kFrameTime, &state, &stats));
   EXPECT_EQ(state.x, before);
   EXPECT_GT(stats.failed, 0);
   int reasons = 0;
@@ -219,7 +219,7 @@ TEST(Simulator, AForceThatIsNoNumberFailsAndIsForgotten) {
     StepStats stats;
     const auto advance = [&] {
       return simulator.Advance(
-          ball.vertices, ball.vertices, kFrame, &state, &stats);
+          ball.vertices, ball.vertices, kFrameTime, &state, &stats);
     };
     for (int frame = 0; frame < 10; ++frame) ASSERT_TRUE(advance());
     ASSERT_GT(stats.most_contacts, 0);
@@ -267,8 +267,12 @@ class CubeToy : public testing::Test {
     for (int f = 0; f < kFrames; ++f) {
       FrameRecord record;
       StepStats stats;
-      EXPECT_TRUE(simulator_->Advance(
-          Cube(angle(f)), Cube(angle(f + 1)), kFrame, &state, &stats, &record));
+      EXPECT_TRUE(simulator_->Advance(Cube(angle(f)),
+                                      Cube(angle(f + 1)),
+                                      kFrameTime,
+                                      &state,
+                                      &stats,
+                                      &record));
       if (!gradient) continue;
       const std::vector<int> vertices =
           Sensitivity::BodyVertices(cube_.faces, record);

@@ -10,7 +10,7 @@
 namespace invsim {
 namespace {
 
-BodySequence Truth() {
+BodySequence True() {
   BodySequence x;
   x.shape.setConstant(0.5);
   for (int t = 0; t < 3; ++t) {
@@ -22,7 +22,7 @@ BodySequence Truth() {
 }
 
 TEST(Disturb, TurnsShiftsAndTakesTheShapeByAsMuchAsAsked) {
-  const BodySequence truth = Truth();
+  const BodySequence truth = True();
   const BodySequence x = Disturb(truth, {0.1, 0.03, 1}, 1);
   EXPECT_EQ(x.shape, ShapeVector::Zero());
   double squares = 0;
@@ -39,11 +39,11 @@ TEST(Disturb, TurnsShiftsAndTakesTheShapeByAsMuchAsAsked) {
 }
 
 TEST(Disturb, IsRepeatableAndCanDoNothing) {
-  EXPECT_EQ(Disturb(Truth(), {}, 7).poses, Disturb(Truth(), {}, 7).poses);
-  EXPECT_NE(Disturb(Truth(), {}, 7).poses, Disturb(Truth(), {}, 8).poses);
-  const BodySequence same = Disturb(Truth(), {0, 0, 0}, 7);
-  EXPECT_EQ(same.shape, Truth().shape);
-  EXPECT_NEAR((same.poses[2] - Truth().poses[2]).norm(), 0, 1e-12);
+  EXPECT_EQ(Disturb(True(), {}, 7).poses, Disturb(True(), {}, 7).poses);
+  EXPECT_NE(Disturb(True(), {}, 7).poses, Disturb(True(), {}, 8).poses);
+  const BodySequence same = Disturb(True(), {0, 0, 0}, 7);
+  EXPECT_EQ(same.shape, True().shape);
+  EXPECT_NEAR((same.poses[2] - True().poses[2]).norm(), 0, 1e-12);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 // that is expensive. It is evaluated for the whole sequence at once, first its
 // cost and, where that point is kept, its linearisation there.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ enum class Evaluation {
   kAbandoned,  // the cost is above the limit, or a stop was asked for
   kFailed      // cannot be evaluated here
 };
+
+// The cost limit of an evaluation that shall not be given up.
+inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 class DataTerm {
  public:

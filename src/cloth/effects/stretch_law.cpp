@@ -10,7 +10,7 @@ namespace {
 
 using Constants = StretchLaw::Constants;
 
-constexpr int kSamples = 30;                 // grid points per axis
+constexpr int kSamplesPerAxis = 30;          // grid points per axis
 constexpr double kPerStrain = 30.0;          // grid points per unit of strain
 constexpr double kLowest = -0.25;            // first E11 and E22
 constexpr double kMeasuredStretch = 1 / 6.;  // stretch of rows 1 to 5
@@ -47,10 +47,10 @@ Constants Evaluate(const MeasuredStretch& fabric,
 
 std::vector<Constants> Sample(const MeasuredStretch& fabric) {
   std::vector<Constants> samples;
-  samples.reserve(kSamples * kSamples * kSamples);
-  for (int i = 0; i < kSamples; ++i)
-    for (int j = 0; j < kSamples; ++j)
-      for (int k = 0; k < kSamples; ++k)
+  samples.reserve(kSamplesPerAxis * kSamplesPerAxis * kSamplesPerAxis);
+  for (int i = 0; i < kSamplesPerAxis; ++i)
+    for (int j = 0; j < kSamplesPerAxis; ++j)
+      for (int k = 0; k < kSamplesPerAxis; ++k)
         samples.push_back(Evaluate(fabric,
                                    kLowest + i / kPerStrain,
                                    kLowest + j / kPerStrain,
@@ -68,7 +68,7 @@ struct Cell {
 Cell Locate(double strain, double lowest) {
   const double at = (strain - lowest) * kPerStrain;
   if (!(at > 0.0)) return {0, 0.0, 0.0};
-  if (at >= kSamples - 1) return {kSamples - 2, 1.0, 0.0};
+  if (at >= kSamplesPerAxis - 1) return {kSamplesPerAxis - 2, 1.0, 0.0};
   const int index = static_cast<int>(at);
   return {index, at - index, kPerStrain};
 }
@@ -100,7 +100,8 @@ StretchLaw::Constants StretchLaw::Interpolate(
     Constants row[2], row_d3[2];
     for (int j = 0; j < 2; ++j) {
       const Constants* s =
-          &samples_[((a.index + i) * kSamples + b.index + j) * kSamples +
+          &samples_[((a.index + i) * kSamplesPerAxis + b.index + j) *
+                        kSamplesPerAxis +
                     c.index];
       row_d3[j] = s[1] - s[0];
       row[j] = s[0] + c.part * row_d3[j];

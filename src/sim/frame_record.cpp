@@ -24,7 +24,8 @@ bool SameContacts(const FrameRecord& a, const FrameRecord& b) {
   if (a.substeps.size() != b.substeps.size()) return false;
   for (size_t s = 0; s < a.substeps.size(); ++s) {
     const SubstepRecord &x = a.substeps[s], &y = b.substeps[s];
-    if (x.sources.size() != y.sources.size()) return false;
+    if (x.s0 != y.s0 || x.s1 != y.s1 || x.sources.size() != y.sources.size())
+      return false;
     for (size_t k = 0; k < x.sources.size(); ++k) {
       const BodyContact &p = x.sources[k], &q = y.sources[k];
       if (p.vertex != q.vertex || p.face != q.face || p.feature != q.feature ||

@@ -372,14 +372,17 @@ void Draw::PutFarAway() {
     scene_.body_at = [near = scene_.body_at, there](int frame) {
       return Points(near(frame).colwise() + there);
     };
-  // Positions hold 2e-12 m there, and differences at best the root of it.
-  scene_.limits.derivative = 1e-3;
+  // Positions hold 2e-12 m there, and a stiff cloth makes more of it:
+  // differences are good to no more.
+  scene_.limits.derivative = 1e-2;
 }
 
 RandomScene Draw::Scene() {
   RandomScene drawn;
   drawn.derivative = Chance(0.2);
   scene_.limits.missed = std::numeric_limits<int>::max();
+  // Where many halvings follow each other differences are good to no more.
+  scene_.limits.derivative = 1e-4;
   const TriangleMesh cloth = Cloth();
   DrawMaterial();
   DrawEffects();

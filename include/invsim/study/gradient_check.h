@@ -11,7 +11,8 @@
 // are reported: the error of columns whose contacts stayed as they were, which
 // must be small, and the share and size of the others. Per column the step is
 // swept and the best agreement kept (the minimum of the V-shaped error curve:
-// truncation at large steps, rounding at small ones).
+// truncation at large steps, rounding at small ones), among the differences
+// and what two neighbouring ones extrapolate to.
 
 #include <functional>
 #include <vector>
@@ -28,6 +29,10 @@ struct GradientCheckOptions {
   // body hardly touches, nothing but rounding is left to compare. 0: every
   // column against itself.
   double floor = 0;
+  // How far the solver leaves a position open, m. Where the body does not move
+  // the cloth (no contact acts), differences over a step h below
+  // sqrt(rows) noise / h are none.
+  double noise = 0;
 };
 void Describe(OptionTable* table, GradientCheckOptions* options);
 

@@ -132,10 +132,11 @@ void Bending::AddStiffnessProductTangent(const Points& x,
   AddDerivative(Part::kProduct, x, w, scale, h);
 }
 
-// With u the gradient of the angle, U its slope, and turn = u . w, the product
-// K w = k turn u has the derivative
-//   k' turn u u^T + k u (U^T w)^T + k turn U,
-// and -f = m u has (k + k' bend) u u^T + m U.
+// With u the gradient of the angle (bounded: hinge.h), U its slope, a how the
+// angle turns (u, unless bounded), and turn = u . w, the product K w = k turn u
+// has the derivative
+//   k' turn u a^T + k u (U^T w)^T + k turn U,
+// and -f = m u has (k + k' bend) u a^T + m U.
 void Bending::AddDerivative(Part part,
                             const Points& x,
                             const Points& w,
@@ -151,6 +152,8 @@ void Bending::AddDerivative(Part part,
     const double bend = hinge.angle - e.rest_angle;
     const BendingCurve::Value curve = e.curve.At(bend);
     const Vector12 u = hinge.gradient.reshaped();
+    Vector12 a = u;
+    if (hinge.collapsed) a = Hinge::AngleGradient(vertices).reshaped();
     const Vector12 move = Gather(e.vertices, w).reshaped();
     const double turn = u.dot(move);
 
@@ -162,7 +165,7 @@ void Bending::AddDerivative(Part part,
     }
     const Vector12 right =
         scale *
-        (along * u + curve.stiffness * slope.transpose().lazyProduct(move));
+        (along * a + curve.stiffness * slope.transpose().lazyProduct(move));
     const Hinge::Slope block =
         u * right.transpose() + (scale * turning) * slope;
     for (int p = 0; p < 4; ++p)

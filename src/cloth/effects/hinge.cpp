@@ -13,9 +13,10 @@ Matrix3d TimesCross(const Matrix3d& m, const Vector3d& v) {
   return m.rowwise().cross(v.transpose());
 }
 
-// The shared edge, its length kept off zero.
+// The shared edge, its length kept off zero in `length`.
 struct HingeEdge {
   Vector3d vector;
+  Vector3d direction;  // zero if there is none
   double length;
   bool collapsed;
 };
@@ -24,7 +25,9 @@ inline HingeEdge EdgeOf(const Hinge::Vertices& x, double rest_length) {
   const Vector3d e = x.col(1) - x.col(0);
   const double length = e.norm();
   const double least = kCollapse * rest_length;
-  return {e, std::max(length, least), length < least};
+  const Vector3d direction =
+      length > 0 ? Vector3d(e / length) : Vector3d::Zero();
+  return {e, direction, std::max(length, least), length < least};
 }
 
 // One face seen from the hinge: u and t of the header.
@@ -47,6 +50,11 @@ inline Wing WingOf(const HingeEdge& e,
   const double least = kCollapse * 2.0 * rest_area;
   w.collapsed = w.square < least * least;
   if (w.collapsed) w.square = least * least;
+  if (w.square == 0 || e.length == 0) {
+    w.u.setZero();
+    w.t = 0;
+    return w;
+  }
   w.u = -(e.length / w.square) * w.normal;
   w.t = arm.dot(e.vector) / (e.length * e.length);
   return w;
@@ -63,8 +71,7 @@ WingSlope SlopeOf(const HingeEdge& e,
                   double side,
                   const Wing& w) {
   const double inverse_square = 1.0 / (e.length * e.length);
-  const Vector3d direction =
-      e.collapsed ? Vector3d::Zero() : Vector3d(e.vector / e.length);
+  const Vector3d direction = e.collapsed ? Vector3d::Zero() : e.direction;
   // d(N / |N|^2) = (I - 2 n n^T) dN / |N|^2.
   Matrix3d shape = Matrix3d::Identity() / w.square;
   if (!w.collapsed)
@@ -95,13 +102,18 @@ Hinge Hinge::At(const Vertices& x,
   const Wing w2 = WingOf(e, x.col(2) - x.col(0), 1.0, rest_area2);
   const Wing w3 = WingOf(e, x.col(3) - x.col(0), -1.0, rest_area3);
   Hinge hinge;
-  hinge.angle = std::atan2(w2.normal.cross(w3.normal).dot(e.vector) / e.length,
+  hinge.angle = std::atan2(w2.normal.cross(w3.normal).dot(e.direction),
                            w2.normal.dot(w3.normal));
   hinge.gradient.col(0) = -(1.0 - w2.t) * w2.u - (1.0 - w3.t) * w3.u;
   hinge.gradient.col(1) = -w2.t * w2.u - w3.t * w3.u;
   hinge.gradient.col(2) = w2.u;
   hinge.gradient.col(3) = w3.u;
+  hinge.collapsed = e.collapsed || w2.collapsed || w3.collapsed;
   return hinge;
+}
+
+Hinge::Vertices Hinge::AngleGradient(const Vertices& x) {
+  return At(x, 0, 0, 0).gradient;
 }
 
 Hinge::Slope Hinge::GradientSlope(const Vertices& x,

@@ -116,6 +116,30 @@ TEST(Bending, RestAnglesEnterForceAndTangent) {
   EXPECT_LE((Dense(h) - expected).norm(), 1e-7 * expected.norm());
 }
 
+// A fold pressed until a face is a line: the gradient of its angle is bounded
+// there, the turning of the angle is not.
+TEST(Bending, TangentIsExactWhereAFaceHasCollapsed) {
+  const Garment garment = Sheet(2, 2, 0.02);
+  Bending bending(garment, ExampleBendingTable());
+  const auto pattern = BindAlone(&bending, garment.num_vertices());
+  Points x = garment.placed + RandomPoints(9, 4e-3, 4);
+  x.col(1) = 0.5 * (x.col(0) + x.col(4)) + Vector3d(1e-5, 4e-5, -2e-5);
+  const Points dx = RandomPoints(9, 1e-3, 5), zero = Points::Zero(3, 9);
+  BlockMatrix h(pattern);
+  h.SetZero();
+  bending.AddTangent({x, zero}, dx, zero, 1.0, &h, &h);
+  const MatrixXd expected = Jacobian(
+      [&](const Points& p) -> VectorXd {
+        const ClothState y{p, zero};
+        return StiffnessOf(bending, pattern, y, 1.0, 0.0) *
+                   VectorXd(Stacked(dx)) -
+               VectorXd(Stacked(ForceOf(bending, y)));
+      },
+      x,
+      1e-9);
+  EXPECT_LE((Dense(h) - expected).norm(), 1e-5 * expected.norm());
+}
+
 // A sheet cut in two whose panels lie apart and turned in the pattern: sewn
 // together again an isotropic sheet does not feel it, a measured one sees the
 // direction of either side.

@@ -108,6 +108,26 @@ TEST(Hinge, IsBoundedWhenCollapsed) {
   }
 }
 
+TEST(Hinge, TurnsBeyondTheBoundAsTheAngleDoes) {
+  Vertices x = Bent(0.4);
+  EXPECT_FALSE(At(x).collapsed);
+  EXPECT_EQ(Hinge::AngleGradient(x), At(x).gradient);
+  x.col(2) = 0.004 * x.col(2) + 0.5 * (x.col(0) + x.col(1));  // a thin wing
+  EXPECT_TRUE(At(x).collapsed);
+  const VectorXd expected = GradientByDuals(x);
+  EXPECT_GT(expected.norm(), 2 * At(x).gradient.norm());
+  EXPECT_LE((Hinge::AngleGradient(x).reshaped() - expected).norm(),
+            1e-12 * expected.norm());
+  x = Bent(0.4);
+  x.col(1) = 0.004 * x.col(1);  // a short edge
+  EXPECT_TRUE(At(x).collapsed);
+  EXPECT_NEAR(At(x).angle, AngleOf(x), 1e-12);
+  EXPECT_LE((Hinge::AngleGradient(x).reshaped() - GradientByDuals(x)).norm(),
+            1e-12 * GradientByDuals(x).norm());
+  x.col(2) = x.col(0);
+  EXPECT_TRUE(Hinge::AngleGradient(x).allFinite());
+}
+
 TEST(Hinge, IsContinuousWhereTheBoundSetsIn) {
   Vertices x = Flat();
   const auto gradient = [&](double height) {

@@ -21,7 +21,8 @@
 // A collapsed face has no angle, and the gradient grows without bound towards
 // one. So |N_k| in the denominators is not let below kCollapse times its rest
 // value, nor |e| below kCollapse times its rest length; the gradient is then
-// bounded, continuous, and that of the angle up to this point.
+// bounded, continuous, and that of the angle up to this point. Beyond it the
+// angle still turns as the formula without bounds says (AngleGradient).
 
 #include "invsim/base/types.h"
 
@@ -35,6 +36,7 @@ struct Hinge {
 
   double angle;       // radians, in [-pi, pi]
   Vertices gradient;  // 1/m
+  bool collapsed;     // whether a bound is in `gradient`
 
   // The angle and its gradient. `rest_length` of the edge, m; `rest_area2`
   // and `rest_area3`: rest areas of the two faces, m^2.
@@ -42,6 +44,10 @@ struct Hinge {
                   double rest_length,
                   double rest_area2,
                   double rest_area3);
+
+  // How the angle turns, without bounds: equal to `gradient` unless something
+  // has collapsed. A face without any area or an edge without length adds none.
+  static Vertices AngleGradient(const Vertices& x);
 
   // The derivative of `gradient` (stacked): the Hessian of the angle, and
   // symmetric, unless something has collapsed.

@@ -10,6 +10,7 @@
 #include "invsim/body/rotation.h"
 #include "invsim/fit/coverage.h"
 #include "invsim/geometry/mesh.h"
+#include "limb_starts.h"
 
 namespace invsim {
 namespace {
@@ -20,6 +21,8 @@ constexpr double kArmAngles[] = {0.0, 0.7, 1.25};
 constexpr int kKeptStarts = 4;
 // A tracked frame is started afresh if its cost is so many times the median.
 constexpr double kLost = 2;
+// The share of its cost below which another pose of a limb is followed up.
+constexpr double kClearlyBetter = 0.99;
 // Body heights a person may have against the points' largest extent.
 constexpr double kSmallestExtent = 0.3, kLargestExtent = 5;
 
@@ -64,6 +67,7 @@ class Initializer {
                   double width,
                   const FreeParameters& free,
                   int iterations) const;
+  Scored TryLimbs(int t, const Scored& found) const;
   Scored SearchFrame(int t) const;
   Scored TrackFrame(int t, const BodyParameters& neighbour) const;
   void Track(int anchor, const Scored& start);
@@ -172,7 +176,28 @@ Scored Initializer::SearchFrame(int t) const {
     s = FitFrame(t, s.at, 0.1, FreeParameters{}, 15);
     s = FitFrame(t, s.at, 0.04, FreeParameters{}, 15);
   }
-  return *std::min_element(found.begin(), found.end(), better);
+  return TryLimbs(t, *std::min_element(found.begin(), found.end(), better));
+}
+
+// Limb by limb: whether a start of that limb alone ends better.
+Scored Initializer::TryLimbs(int t, const Scored& found) const {
+  Scored best = found;
+  for (const Limb& limb : Limbs()) {
+    FreeParameters only;
+    only.shape = only.translation = false;
+    only.joints.assign(kNumJoints, false);
+    for (const int joint : limb.joints) only.joints[joint] = true;
+    Scored tried = FitFrame(t, best.at, 0.1, only, 3);
+    const double as_it_is = tried.cost;
+    for (const LimbStart& start : limb.starts) {
+      const Scored s = FitFrame(t, start.From(best.at), 0.1, only, 12);
+      if (s.cost < tried.cost) tried = s;
+    }
+    if (tried.cost > kClearlyBetter * as_it_is) continue;
+    tried = FitFrame(t, tried.at, 0.04, FreeParameters{}, 15);
+    if (tried.cost < best.cost) best = tried;
+  }
+  return best;
 }
 
 Scored Initializer::TrackFrame(int t, const BodyParameters& neighbour) const {

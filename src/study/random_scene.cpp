@@ -436,6 +436,8 @@ std::string KnownBorder(const RandomScene& drawn,
   if (breach.limit == "penetration" && drawn.squeezed)
     return "boards press with a thousand times the cloth's weight: contacts "
            "that share a vertex yield";
+  if (breach.limit == "penetration" && outcome.step.stopped > 0)
+    return "cloth stopped on its way through cloth is in the way of the body";
   if (breach.limit != "energy") return "";
   if (outcome.step.stopped > 0)
     return "cloth stopped on its way through cloth strains its neighbours";

@@ -68,6 +68,18 @@ TEST_F(Init, FindsABodyItWasNotToldTheHeadingOf) {
   EXPECT_LT(MeanVertexError(person_.body(), found, truth), 0.012);
 }
 
+// Forearms across the chest: without starts of single limbs both arms fit the
+// points of one, and the body is 113 mm off.
+TEST_F(Init, FindsArmsThatAreFolded) {
+  BodyParameters truth = TruthAt(0);
+  truth.pose.segment<3>(3 * 16) = Vector3d(0.65, -0.88, -1.26);
+  truth.pose.segment<3>(3 * 17) = Vector3d(0.7, 1.1, 1.26);
+  truth.pose.segment<3>(3 * 18) = Vector3d(0, -1.77, 0.66);
+  truth.pose.segment<3>(3 * 19) = Vector3d(0, 1.32, -0.66);
+  clouds_ = {person_.Scan(truth, 3000, 0)};
+  EXPECT_LT(MeanVertexError(person_.body(), Run().body.Frame(0), truth), 0.02);
+}
+
 TEST_F(Init, IsTheSameForTheSameSeed) {
   clouds_.resize(1);
   options_.headings = 1;

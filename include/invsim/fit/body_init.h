@@ -8,7 +8,8 @@
 //   1. Anchors. In a few frames, far apart, the body is started at the points'
 //      centroid in several headings and arm poses, fitted coarse to fine (few
 //      points, wide loss, trunk and limbs before hands and feet), and the best
-//      start kept. The best anchor is where tracking begins.
+//      start kept; then each limb alone is started in several poses, and what
+//      is better kept. The best anchor is where tracking begins.
 //   2. Tracking. Frame by frame outwards from it, each started from its
 //      neighbour; a frame much worse than those before is also started
 //      afresh.

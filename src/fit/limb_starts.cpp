@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limb_starts.h"
+
+namespace invsim {
+namespace {
+
+enum Side { kLeft, kRight };
+
+// A rotation of the left side as its mirror image.
+Vector3d Mirrored(Side side, double x, double y, double z) {
+  return side == kLeft ? Vector3d(x, y, z) : Vector3d(x, -y, -z);
+}
+
+// In the T-pose the left arm points along +x, the face along +z: about -y it
+// comes forward, about -z down.
+Limb Arm(Side side) {
+  const int collar = side == kLeft ? 13 : 14, shoulder = collar + 3,
+            elbow = shoulder + 2, wrist = elbow + 2;
+  Limb limb{side == kLeft ? "left arm" : "right arm",
+            {collar, shoulder, elbow, wrist},
+            {}};
+  const Vector3d shoulders[] = {Mirrored(side, 0, 0, 0),
+                                Mirrored(side, 0, 0, -1.25),
+                                Mirrored(side, 0, -1.3, 0),
+                                Mirrored(side, 0, 0, 1.2),
+                                Mirrored(side, 0.3, -0.8, -1.25)};
+  const Vector3d elbows[] = {Vector3d::Zero(),
+                             Mirrored(side, 0, -1.6, 0),
+                             Mirrored(side, 0, -1.6, 0.8)};
+  for (const Vector3d& s : shoulders)
+    for (const Vector3d& e : elbows)
+      limb.starts.push_back({{{collar, Vector3d::Zero()},
+                              {shoulder, s},
+                              {elbow, e},
+                              {wrist, Vector3d::Zero()}}});
+  return limb;
+}
+
+// Two limbs moved at once, each start of one with its like of the other.
+Limb Both(const char* name, const Limb& a, const Limb& b) {
+  Limb both{name, a.joints, a.starts};
+  both.joints.insert(both.joints.end(), b.joints.begin(), b.joints.end());
+  for (size_t k = 0; k < both.starts.size(); ++k) {
+    std::vector<LimbStart::Turn>& turns = both.starts[k].turns;
+    const auto& more = b.starts[k].turns;
+    turns.insert(turns.end(), more.begin(), more.end());
+  }
+  return both;
+}
+
+// About -x the thigh comes forward, about +x the shank goes back.
+Limb Leg(Side side) {
+  const int hip = side == kLeft ? 1 : 2, knee = hip + 3, ankle = knee + 3;
+  Limb limb{side == kLeft ? "left leg" : "right leg", {hip, knee, ankle}, {}};
+  const auto add = [&](const Vector3d& h, double bend) {
+    limb.starts.push_back(
+        {{{hip, h}, {knee, Vector3d(bend, 0, 0)}, {ankle, Vector3d::Zero()}}});
+  };
+  add(Vector3d::Zero(), 0);
+  add(Mirrored(side, 0, 0, 0.4), 0);
+  add(Vector3d(-0.5, 0, 0), 0.3);
+  add(Vector3d(0.4, 0, 0), 0.5);
+  add(Vector3d(-1.2, 0, 0), 1.3);
+  return limb;
+}
+
+}  // namespace
+
+BodyParameters LimbStart::From(const BodyParameters& body) const {
+  BodyParameters start = body;
+  for (const Turn& turn : turns)
+    start.pose.segment<3>(3 * turn.joint) = turn.rotation;
+  return start;
+}
+
+std::vector<Limb> Limbs() {
+  const Limb left = Arm(kLeft), right = Arm(kRight);
+  return {Both("arms", left, right), left, right, Leg(kLeft), Leg(kRight)};
+}
+
+}  // namespace invsim

@@ -26,16 +26,22 @@ if(INVSIM_BUILD_TESTS)
   include(GoogleTest)
 endif()
 
-# Flags common to every target and to those who link us. Eigen objects are
-# aligned to 16 bytes, as in Debian's libraries; memory they allocate is not
-# interchangeable (with AVX Eigen brings its own allocator), so none crosses
-# into a library that was built with Eigen, and whoever links us is compiled for
-# the same instructions. Hidden symbols keep our Eigen functions from taking the
+# Flags common to every target and to those who link us. Eigen's memory and
+# objects are aligned for the largest vectors there are: loops over memory
+# aligned to less begin one by one, up to where it is aligned, which changes
+# from run to run and with it the last bits. Debian's libraries align to 16
+# bytes, and with AVX Eigen brings its own allocator, so nothing of Eigen
+# crosses into a library that was built with it, and whoever links us is
+# compiled for the same instructions. Hidden symbols keep our Eigen functions from taking the
 # place of a library's own.
 add_library(invsim_flags INTERFACE)
 set_target_properties(invsim_flags PROPERTIES EXPORT_NAME flags)
-target_compile_definitions(invsim_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+target_compile_definitions(invsim_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=64)
 target_compile_features(invsim_flags INTERFACE cxx_std_20)
+# For the same reason no loop is contracted to fused operations in one part and
+# not in another. (Eigen's matrix products name their fused operations
+# themselves.)
+target_compile_options(invsim_flags INTERFACE -ffp-contract=off)
 if(INVSIM_NATIVE)
   target_compile_options(invsim_flags INTERFACE -march=native)
 endif()

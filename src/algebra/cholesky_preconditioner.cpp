@@ -30,12 +30,13 @@ struct CholeskyPreconditioner::Impl {
 
   CholmodAnalysis analysis;
   Supernodes supernodes;
-  std::vector<float> values;
+  // Eigen's, for their alignment: products round by it.
+  VectorXf values;
   // Value k of the lower triangle goes to values[slot[k]].
   std::vector<size_t> slot;
   std::vector<int> position;  // of a row in the current supernode
-  std::vector<float> product;
-  VectorXf y, z;  // of Solve
+  MatrixXf product;           // workspace of Update
+  VectorXf y, z;              // of Solve
 };
 
 CholeskyPreconditioner::Impl::Impl(std::shared_ptr<const BlockPattern> pattern)
@@ -65,7 +66,7 @@ CholeskyPreconditioner::Impl::Impl(std::shared_ptr<const BlockPattern> pattern)
 bool CholeskyPreconditioner::Impl::Load(const BlockMatrix& a) {
   if (!analysis.Load(a)) return false;
   const double* from = static_cast<const double*>(analysis.lower()->x);
-  std::fill(values.begin(), values.end(), 0.0f);
+  values.setZero();
   for (size_t k = 0; k < slot.size(); ++k)
     values[slot[k]] = static_cast<float>(from[k]);
   return true;
@@ -78,16 +79,14 @@ void CholeskyPreconditioner::Impl::Update(const Supernode& target,
                                           int i1) {
   const int m = source.height - i1;
   const int width = source.RowsBefore(i1, target.end()) - i1;
-  if (product.size() < static_cast<size_t>(m) * width)
-    product.resize(static_cast<size_t>(m) * width);
   const FloatPanel l = panel(source);
-  FloatPanel p(product.data(), m, width);
-  p.noalias() = l.bottomRows(m) * l.middleRows(i1, width).transpose();
+  product.resize(m, width);
+  product.noalias() = l.bottomRows(m) * l.middleRows(i1, width).transpose();
   for (int c = 0; c < width; ++c) {
     float* to =
         values.data() + target.offset +
         static_cast<size_t>(source.rows[i1 + c] - target.first) * target.height;
-    const float* from = p.col(c).data();
+    const float* from = product.col(c).data();
     for (int r = c; r < m; ++r) to[position[source.rows[i1 + r]]] -= from[r];
   }
 }

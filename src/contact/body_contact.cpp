@@ -21,6 +21,9 @@ constexpr double kTouching = 1e-5;
 
 // Two faces give the same contact if their closest points do.
 constexpr double kSamePoint = 1e-9;
+// No way out of a body is sought beyond this, m: a vertex said to be inside
+// that finds none has come out.
+constexpr double kDeepest = 0.1;
 
 // A local minimum of the distance from a cloth vertex to the surface.
 struct Minimum {
@@ -81,6 +84,10 @@ struct BodyContactDetector::Impl {
     return (Corners(body1, at.face) - Corners(body0, at.face)) * at.weights /
            dt;
   }
+  void Find(const Vector3d& x,
+            bool has_way_out,
+            double radius,
+            std::vector<Minimum>* minima) const;
   void Minima(const Vector3d& x,
               const std::vector<FacePoint>& near,
               std::vector<Minimum>* minima) const;
@@ -97,6 +104,27 @@ BodyContactDetector::~BodyContactDetector() = default;
 
 const Faces& BodyContactDetector::faces() const {
   return impl_->surface.faces();
+}
+
+// All within `radius`; of a vertex inside the body at least one way out, which
+// may lie further than another part of the body that is in front of it.
+void BodyContactDetector::Impl::Find(const Vector3d& x,
+                                     bool has_way_out,
+                                     double radius,
+                                     std::vector<Minimum>* minima) const {
+  std::vector<FacePoint> near;
+  if (has_way_out)
+    radius = std::max(radius, surface.Nearest(x).distance + 1e-3);
+  for (;; radius *= 2) {
+    surface.Within(x, radius, &near);
+    Minima(x, near, minima);
+    DropUnphysical(x, minima);
+    if (!has_way_out || radius > kDeepest ||
+        std::any_of(minima->begin(), minima->end(), [](const Minimum& m) {
+          return m.side < 0;
+        }))
+      return;
+  }
 }
 
 // The foot of a perpendicular on a face is a local minimum, and so is a point
@@ -209,19 +237,12 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
   tbb::parallel_for(
       tbb::blocked_range<int>(0, n, 64),
       [&](const tbb::blocked_range<int>& range) {
-        std::vector<FacePoint> near;
         for (int i = range.begin(); i < range.end(); ++i) {
           const Vector3d x = x0.col(i);
           const double still = options.thickness + options.margin;
           double speed = v0.col(i).norm();
           if (v1) speed = std::max(speed, v1->col(i).norm());
-          double radius = still + dt * (speed + fastest);
-          if (s.inside[i])
-            radius = std::max(radius, s.surface.Nearest(x).distance + 1e-3);
-          s.surface.Within(x, radius, &near);
-          if (near.empty()) continue;
-          s.Minima(x, near, &found[i]);
-          s.DropUnphysical(x, &found[i]);
+          s.Find(x, s.inside[i], still + dt * (speed + fastest), &found[i]);
           std::erase_if(found[i], [&](const Minimum& m) {
             const Vector3d body = s.Velocity(body0, body1, m.at, dt);
             double slip = (v0.col(i) - body).norm();

@@ -367,6 +367,8 @@ bool ClothPointsTerm::Linearize(std::vector<FrameBlock>* blocks) {
   const bool good = impl_->options.history == History::kOneFrame
                         ? impl_->LinearizeOneFrame(blocks)
                         : impl_->LinearizeCarried(blocks);
+  for (int t = 0; t < num_frames(); ++t)
+    impl_->stats.fixed_contacts += FixedContacts(impl_->rollout.record(t));
   impl_->stats.sensitivity_seconds += watch.seconds();
   return good;
 }

@@ -360,6 +360,13 @@ std::vector<std::string> Approximations(const FitReport& report) {
   list.push_back(
       "Nearest points, visibility and contact sets are held while "
       "differentiating.");
+  if (report.result.stats.fixed_contacts > 0)
+    list.push_back(
+        "Cloth that met cloth within a step (" +
+        std::to_string(report.result.stats.fixed_contacts) +
+        " contacts found by sweeping or vertices stopped, over all "
+        "linearisations): normals, weights and where it stopped are held "
+        "while differentiating.");
   if (report.result.stats.step.missed > 0)
     list.push_back(std::to_string(report.result.stats.step.missed) +
                    " simulation steps missed the contact tolerance and were "

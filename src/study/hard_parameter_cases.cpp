@@ -101,8 +101,11 @@ void AddParameterCases(std::vector<HardCase>* cases) {
   add("theta_0", "all rotations exactly zero", [] { return ToPose({}); });
   add("theta_2_pi", "the root turned by exactly 2 pi", FullTurn);
   add("elbows_180", "elbows folded by 180 degrees", [] {
-    return ToPose(
+    HardScene scene = ToPose(
         {{18, Vector3d(0, -EIGEN_PI, 0)}, {19, Vector3d(0, EIGEN_PI, 0)}});
+    // Some of the sleeve is caught on the way, for a frame or two.
+    scene.limits.penetration = 0.01;
+    return scene;
   });
   add(
       "shoulders_180",

@@ -153,6 +153,14 @@ TEST_F(BodyContactTest, InsideIsLedOutThroughTheNearestPoint) {
   EXPECT_NEAR(found.contacts[0].velocity.norm(), options_.recovery_speed, 1e-9);
 }
 
+// As cloth between arm and trunk: 2 mm off the one, and deep in the other.
+TEST_F(BodyContactTest, InsideIsLedOutThoughAnotherPartIsNearer) {
+  const Found found = DetectAtRest(TwoBalls(0.19), {0.088, 0, 0});
+  ASSERT_EQ(found.contacts.size(), 2u);
+  for (size_t k = 0; k < 2; ++k)
+    EXPECT_GT(found.sources[k].side * -found.contacts[k].normal.x(), 0.9);
+}
+
 TEST_F(BodyContactTest, TheFarSideOfAThinPartIsNoObstacle) {
   TriangleMesh finger = Sphere(3);
   finger.vertices *= 0.004;  // thinner than the reach of the search

@@ -65,6 +65,9 @@ struct ClothPointsCosts {
 struct ClothPointsStats {
   StepStats step;  // over all evaluations
   long frames = 0;
+  // Swept contacts and stopped vertices of the frames differentiated, whose
+  // derivative is approximate (sim/sensitivity.h).
+  long fixed_contacts = 0;
   long neighbour_queries = 0;  // of points for surfaces, and of vertices
   double simulation_seconds = 0;
   double neighbour_seconds = 0;

@@ -31,7 +31,9 @@ struct GradientCheckOptions {
   double floor = 0;
   // How far the solver leaves a position open, m. Where the body does not move
   // the cloth (no contact acts), differences over a step h below
-  // sqrt(rows) noise / h are none.
+  // sqrt(rows) noise / h are none; and where differences grow like 1 / h far
+  // above it, the frame jumps from one solution to another, and the column
+  // counts as switched.
   double noise = 0;
 };
 void Describe(OptionTable* table, GradientCheckOptions* options);

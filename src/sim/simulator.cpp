@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "invsim/base/options.h"
+#include "energy_balance.h"
 #include "invsim/base/stopwatch.h"
 
 namespace invsim {
@@ -17,109 +17,18 @@ namespace {
 // on its way, before it is stopped.
 constexpr int kSweeps = 4;
 
-// The unit of force residuals where there is no gravity to weigh with.
-constexpr double kStandardGravity = 9.81;
-
 // How often contacts that a solution shows to be missing are added to a
 // sub-step.
 constexpr int kLateRounds = 4;
 
-// The share of energy from nowhere at which a step is halved, and how far
-// lifting the cloth is too little energy to speak of, m.
+// The share of energy from nowhere at which a step is halved.
 constexpr double kMostGain = 0.01;
-constexpr double kLift = 1e-3;
 
 Points Blend(const Points& a, const Points& b, double s) {
   return (1 - s) * a + s * b;
 }
 
 }  // namespace
-
-void Describe(OptionTable* table, FrictionOptions* o) {
-  table->Add("tolerance",
-             &o->tolerance,
-             {.doc = "residual of the contact law and of momentum at which a "
-                     "step is solved",
-              .unit = "vertex weights",
-              .above = 0});
-  table->Add(
-      "admm_iterations",
-      &o->admm_iterations,
-      {.doc = "splitting iterations, at most, before Newton", .at_least = 0});
-  table->Add("newton_iterations",
-             &o->newton_iterations,
-             {.doc = "semismooth Newton iterations before splitting is asked "
-                     "again",
-              .at_least = 1});
-  table->Add("retries",
-             &o->retries,
-             {.doc = "how often splitting is asked again, each time twice as "
-                     "long",
-              .at_least = 0,
-              .at_most = 10});
-  table->Add("krylov_tolerance",
-             &o->krylov_tolerance,
-             {.doc = "relative linear residual at which GMRES is done",
-              .above = 0,
-              .below = 1});
-  table->Add("krylov_iterations",
-             &o->krylov_iterations,
-             {.doc = "GMRES iterations after which the Jacobian is factorised "
-                     "anew",
-              .at_least = 0});
-}
-
-void Describe(OptionTable* table, StepOptions* o) {
-  table->Add("substeps",
-             &o->substeps,
-             {.doc = "linearly implicit steps per frame: more are more "
-                     "accurate and less damped",
-              .at_least = 1});
-  table->Add("newton_iterations",
-             &o->newton_iterations,
-             {.doc = "linearisations per sub-step; 1 is linearly implicit",
-              .at_least = 1});
-  table->Add("newton_tolerance",
-             &o->newton_tolerance,
-             {.doc = "change of velocity at which re-linearising ends",
-              .unit = "m/s",
-              .above = 0});
-  table->Add("max_halvings",
-             &o->max_halvings,
-             {.doc = "how often a sub-step that misses the contact tolerance "
-                     "is halved",
-              .at_least = 0,
-              .at_most = 10});
-  table->AddSection("friction", &o->friction);
-}
-
-void StepStats::Add(const StepStats& o) {
-  substeps += o.substeps;
-  linearizations += o.linearizations;
-  missed += o.missed;
-  halved += o.halved;
-  failed += o.failed;
-  for (const auto& [why, count] : o.failures) failures[why] += count;
-  worst_residual = std::max(worst_residual, o.worst_residual);
-  most_contacts = std::max(most_contacts, o.most_contacts);
-  factorizations += o.factorizations;
-  solves += o.solves;
-  contact_queries += o.contact_queries;
-  admm_iterations += o.admm_iterations;
-  newton_iterations += o.newton_iterations;
-  open += o.open;
-  stick += o.stick;
-  slide += o.slide;
-  most_cloth_contacts = std::max(most_cloth_contacts, o.most_cloth_contacts);
-  sweep_solves += o.sweep_solves;
-  stopped += o.stopped;
-  most_crossings = std::max(most_crossings, o.most_crossings);
-  assembly_seconds += o.assembly_seconds;
-  effects.Add(o.effects);
-  detection_seconds += o.detection_seconds;
-  factor_seconds += o.factor_seconds;
-  solve_seconds += o.solve_seconds;
-}
 
 struct Simulator::Impl {
   explicit Impl(SimulatorSetup s);
@@ -147,9 +56,7 @@ struct Simulator::Impl {
   Outcome Solve(SubstepRecord* sub, LinearizationRecord* lin, StepStats* stats);
   Outcome Iterate(SubstepRecord* sub, StepStats* stats);
   bool SweepCloth(int round, SubstepRecord* sub, StepStats* stats);
-  double Energy(const ClothState& state) const;
   ClothState End(const SubstepRecord& sub) const;
-  double Gain(const SubstepRecord& sub) const;
   Outcome Substep(const Points& body0,
                   const Points& body1,
                   SubstepRecord* sub,
@@ -463,37 +370,6 @@ ClothState Simulator::Impl::End(const SubstepRecord& sub) const {
   return end;
 }
 
-double Simulator::Impl::Energy(const ClothState& state) const {
-  double energy = 0.5 * (state.v.colwise().squaredNorm() * setup.mass)(0);
-  for (const auto& effect : setup.effects) energy += effect->Energy(state);
-  return energy;
-}
-
-// Energy that a step has from nowhere, as a share of what went about in it: a
-// linearisation does not see the strain that the step's own turning makes.
-double Simulator::Impl::Gain(const SubstepRecord& sub) const {
-  if (!inertia) return 0;
-  const LinearizationRecord& lin = sub.linearizations.back();
-  const ClothState end = End(sub);
-  double given = 0, turnover = kLift * weight.sum();
-  const auto work = [&](double w) {
-    given += w;
-    turnover += std::abs(w);
-  };
-  for (size_t k = 0; k < sub.contacts.size(); ++k)
-    work(sub.dt * lin.forces[k].dot(sub.contacts[k].Gather(lin.v)));
-  for (const auto& effect : setup.effects) {
-    if (effect->conservative()) continue;
-    Points force = Points::Zero(3, pattern->size);
-    effect->AddForce(end, &force);
-    work(std::max(0.0, sub.dt * Stacked(force).dot(lin.v)));
-  }
-  const double before = Energy(sub.start), after = Energy(end);
-  const double kinetic = 0.5 * (end.v.colwise().squaredNorm() * setup.mass)(0);
-  turnover += std::max(kinetic, std::abs(after - before));
-  return (after - before - given) / turnover;
-}
-
 // The culprit, sought where the sub-step started.
 std::string Simulator::Impl::WhyNotFinite(const Points& body1,
                                           const Outcome& outcome,
@@ -525,7 +401,9 @@ bool Simulator::Impl::Interval(const Points& body0,
   sub.start = *state;
   StepStats own;
   const Outcome outcome = Substep(body0, body1, &sub, &own);
-  const bool gained = outcome.finite && Gain(sub) > kMostGain;
+  const bool gained =
+      outcome.finite && inertia &&
+      EnergyGain(setup.mass, setup.effects, sub, End(sub)) > kMostGain;
   const bool good = outcome.finite && outcome.converged && !gained;
   if (!good && halvings > 0) {
     own.worst_residual = 0;  // of an attempt that is not kept
@@ -668,14 +546,11 @@ Points Simulator::BodyForce() const {
 }
 
 double Simulator::PotentialEnergy(const ClothState& state) const {
-  double energy = 0;
-  for (const auto& effect : impl_->setup.effects)
-    energy += effect->Energy(state);
-  return energy;
+  return invsim::PotentialEnergy(effects(), state);
 }
 
 double Simulator::KineticEnergy(const ClothState& state) const {
-  return 0.5 * (state.v.colwise().squaredNorm() * mass())(0);
+  return invsim::KineticEnergy(mass(), state);
 }
 
 }  // namespace invsim

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "effects_json.h"
+#include "fit_report_parts.h"
+#include "invsim/base/names.h"
+
+namespace invsim {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+template <typename Vector>
+Json List(const Vector& values, double factor = 1) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(factor * value);
+  return list;
+}
+
+Json InputsJson(const FitReport& r) {
+  Json json;
+  json["points"] = r.points;
+  json["body"] = r.body;
+  json["garment"] = r.garment;
+  json["material"] = r.material;
+  json["effects"] = EffectsOn(r.effects);
+  json["frames"] = r.frames;
+  json["frames_per_second"] = r.frames_per_second;
+  json["points_per_frame_min"] = r.fewest_points;
+  json["points_per_frame_max"] = r.most_points;
+  json["points_dropped"] = r.points_dropped;
+  json["body_vertices"] = r.body_vertices;
+  json["cloth_vertices"] = r.cloth_vertices;
+  json["cloth_faces"] = r.cloth_faces;
+  json["friction"] = r.friction;
+  json["thickness_mm"] = 1000 * r.thickness;
+  json["contact_tolerance_weights"] = r.tolerance;
+  json["optimizer"] = r.optimizer;
+  json["loss"] = r.loss;
+  json["threads"] = r.threads;
+  return json;
+}
+
+Json StepsJson(const StepStats& s) {
+  Json json;
+  json["steps"] = s.substeps;
+  json["steps_missed"] = s.missed;
+  json["steps_halved"] = s.halved;
+  json["steps_failed"] = s.failed;
+  if (!s.failures.empty()) json["steps_failed_because"] = s.failures;
+  json["worst_residual_weights"] = s.worst_residual;
+  json["most_contacts"] = s.most_contacts;
+  json["factorizations"] = s.factorizations;
+  json["solves"] = s.solves;
+  json["contact_queries"] = s.contact_queries;
+  return json;
+}
+
+Json CostJson(const CostTerms& terms) {
+  Json json;
+  json["total"] = terms.total();
+  json["data"] = terms.data;
+  json["smoothness"] = terms.smoothness;
+  json["shape"] = terms.shape;
+  json["pose"] = terms.pose;
+  json["overlap"] = terms.overlap;
+  return json;
+}
+
+Json OptimizerJson(const OptimizerSummary& s) {
+  Json json;
+  json["termination"] = Name(s.termination);
+  json["reason"] = s.reason;
+  json["iterations"] = s.iterations.empty() ? 0 : s.iterations.size() - 1;
+  json["initial_cost"] = s.initial_cost;
+  json["final_cost"] = s.final_cost;
+  json["evaluations"] = s.counts.evaluations;
+  json["evaluations_abandoned"] = s.counts.abandoned;
+  json["evaluations_failed"] = s.counts.failed;
+  json["evaluations_without_derivative"] = s.counts.no_derivative;
+  json["linearizations"] = s.counts.linearizations;
+  if (!s.iterations.empty())
+    json["cost_by_term"] = CostJson(s.iterations.back().terms);
+  return json;
+}
+
+Json UncertaintyJson(const Uncertainty& u) {
+  Json json;
+  if (!u.failure.empty()) {
+    json["failure"] = u.failure;
+    return json;
+  }
+  json["shape_deviation"] = List(u.shape_deviation);
+  json["shape_undetermined_directions"] = Json::array();
+  for (int k = 0; k < u.undetermined_directions; ++k) {
+    Json direction;
+    direction["direction"] = List(u.shape_directions.col(k));
+    direction["deviation"] = u.direction_deviation[k];
+    json["shape_undetermined_directions"].push_back(std::move(direction));
+  }
+  json["joints_undetermined"] = UndeterminedJointNames(u);
+  json["frames"] = Json::array();
+  for (size_t t = 0; t < u.pose_deviation.size(); ++t) {
+    Json frame;
+    frame["pose_deviation_deg"] = List(u.pose_deviation[t], kDegrees);
+    frame["translation_deviation_mm"] = List(u.translation_deviation[t], 1000);
+    json["frames"].push_back(std::move(frame));
+  }
+  return json;
+}
+
+Json FramesJson(const FitReport& r) {
+  Json frames = Json::array();
+  for (size_t t = 0; t < r.simulated.size(); ++t) {
+    const FrameStats& f = r.simulated[t];
+    Json frame;
+    frame["frame"] = t;
+    frame["steps_missed"] = f.step.missed;
+    frame["worst_residual_weights"] = f.step.worst_residual;
+    frame["penetration_max_mm"] = 1000 * f.penetration.deepest;
+    frame["body_overlap_penetration_max_mm"] =
+        1000 * f.penetration.deepest_overlap;
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+}  // namespace
+
+std::string FitJson(const FitReport& report) {
+  const FitResult& r = report.result;
+  Json json;
+  json["schema"] = "invsim.fit";
+  json["schema_version"] = kFitSchemaVersion;
+  json["status"] = Name(r.termination);
+  json["usable"] = r.usable();
+  json["verdict"] = Verdict(report);
+  json["inputs"] = InputsJson(report);
+  json["effects"] = EffectsJson(report.effects);
+  json["shape"] = List(r.body.shape);
+  if (r.optimizer) json["optimization"] = OptimizerJson(*r.optimizer);
+  json["cost_by_distance"] = {{"cloth_to_points", r.costs.cloth_to_points},
+                              {"skin_to_points", r.costs.skin_to_points},
+                              {"points_to_surface", r.costs.points_to_surface}};
+  json["garment_carried_to_shape"] = r.carried;
+  json["simulation"] = StepsJson(r.stats.step);
+  json["simulation"]["neighbour_queries"] = r.stats.neighbour_queries;
+  const FrameStats last = Simulated(report);
+  json["final_simulation"] = StepsJson(last.step);
+  json["final_simulation"]["penetration_max_mm"] =
+      1000 * last.penetration.deepest;
+  json["final_simulation"]["body_overlap_penetration_max_mm"] =
+      1000 * last.penetration.deepest_overlap;
+  if (r.uncertainty) json["uncertainty"] = UncertaintyJson(*r.uncertainty);
+  json["approximations"] = Approximations(report);
+  json["wall_seconds"] = report.seconds;
+  for (const auto& [name, seconds] : TimeByPart(report))
+    json["seconds_by_part"][name] = seconds;
+  json["frames"] = FramesJson(report);
+  // A path may hold any bytes, JSON only UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace invsim

@@ -50,7 +50,7 @@ HardFit UpperHalf() {
     cloud = cloud(Eigen::all, upper).eval();
   }
   MeasureFromPointsAlone(&fit);
-  fit.body_error = 0.1;  // nothing says where the legs are
+  fit.body_error = 0.15;  // nothing says where the legs are
   return fit;
 }
 

@@ -16,9 +16,7 @@ Vector3d Mirrored(Side side, double x, double y, double z) {
 Limb Arm(Side side) {
   const int collar = side == kLeft ? 13 : 14, shoulder = collar + 3,
             elbow = shoulder + 2, wrist = elbow + 2;
-  Limb limb{side == kLeft ? "left arm" : "right arm",
-            {collar, shoulder, elbow, wrist},
-            {}};
+  Limb limb{{collar, shoulder, elbow, wrist}, {}};
   const Vector3d shoulders[] = {Mirrored(side, 0, 0, 0),
                                 Mirrored(side, 0, 0, -1.25),
                                 Mirrored(side, 0, -1.3, 0),
@@ -37,8 +35,8 @@ Limb Arm(Side side) {
 }
 
 // Two limbs moved at once, each start of one with its like of the other.
-Limb Both(const char* name, const Limb& a, const Limb& b) {
-  Limb both{name, a.joints, a.starts};
+Limb Both(const Limb& a, const Limb& b) {
+  Limb both = a;
   both.joints.insert(both.joints.end(), b.joints.begin(), b.joints.end());
   for (size_t k = 0; k < both.starts.size(); ++k) {
     std::vector<LimbStart::Turn>& turns = both.starts[k].turns;
@@ -51,7 +49,7 @@ Limb Both(const char* name, const Limb& a, const Limb& b) {
 // About -x the thigh comes forward, about +x the shank goes back.
 Limb Leg(Side side) {
   const int hip = side == kLeft ? 1 : 2, knee = hip + 3, ankle = knee + 3;
-  Limb limb{side == kLeft ? "left leg" : "right leg", {hip, knee, ankle}, {}};
+  Limb limb{{hip, knee, ankle}, {}};
   const auto add = [&](const Vector3d& h, double bend) {
     limb.starts.push_back(
         {{{hip, h}, {knee, Vector3d(bend, 0, 0)}, {ankle, Vector3d::Zero()}}});
@@ -75,7 +73,7 @@ BodyParameters LimbStart::From(const BodyParameters& body) const {
 
 std::vector<Limb> Limbs() {
   const Limb left = Arm(kLeft), right = Arm(kRight);
-  return {Both("arms", left, right), left, right, Leg(kLeft), Leg(kRight)};
+  return {Both(left, right), left, right, Leg(kLeft), Leg(kRight)};
 }
 
 }  // namespace invsim

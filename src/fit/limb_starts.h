@@ -24,7 +24,6 @@ struct LimbStart {
 };
 
 struct Limb {
-  const char* name;
   std::vector<int> joints;  // those that move when it is tried
   std::vector<LimbStart> starts;
 };

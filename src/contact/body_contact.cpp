@@ -60,11 +60,12 @@ void Describe(OptionTable* table, BodyContactOptions* o) {
              {.doc = "fastest way out of the body for a vertex inside it",
               .unit = "m/s",
               .above = 0});
-  table->Add("shared_compliance",
-             &o->shared_compliance,
-             {.doc = "compliance of contacts that share a vertex",
-              .unit = "dt/m",
-              .above = 0});
+  table->Add(
+      "shared_compliance",
+      &o->shared_compliance,
+      {.doc = "compliance of contacts that share a vertex, as a share of "
+              "the vertex's own",
+       .above = 0});
 }
 
 struct BodyContactDetector::Impl {
@@ -221,7 +222,7 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
                                  const Points& body1,
                                  const Points& x0,
                                  const Points& v0,
-                                 const VectorXd& mass,
+                                 const VectorXd& resistance,
                                  std::vector<Contact>* contacts,
                                  std::vector<BodyContact>* sources,
                                  const Points* v1) {
@@ -273,7 +274,7 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
       contact.velocity = plane.velocity;
       contact.friction = options.friction;
       if (found[i].size() > 1)
-        contact.compliance = options.shared_compliance * dt / mass[i];
+        contact.compliance = options.shared_compliance / resistance[i];
       sources->push_back({static_cast<int>(contacts->size()),
                           i,
                           m.at.face,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "invsim/algebra/anderson.h"
@@ -23,6 +24,9 @@ constexpr int kPatience = 3;
 // vertex is far softer there than its own diagonal says.
 constexpr double kRhoNormal = 0.5;
 constexpr double kRhoTangent = 0.05;
+// What cycles with one rho may settle with another: its share of the above in
+// the first attempt and each retry.
+constexpr double kRhoOfAttempt[] = {1, 0.1, 10, 0.01};
 // Refinement goes on while a step leaves less than this of the residual.
 constexpr double kRefinement = 0.1;
 // A factor that leaves more of an error than this at every turn is too coarse.
@@ -59,7 +63,7 @@ struct FrictionSolver::Impl {
       : pattern(p), single(p), augmented(p), anderson(kMemory), jacobian(p) {}
 
   void UsePattern();
-  void Prepare();
+  void Prepare(double rho_share);
   bool Factor();
   bool FactorInDouble();
   bool Coarse();
@@ -118,7 +122,7 @@ void FrictionSolver::Impl::UsePattern() {
   cholesky.reset();
 }
 
-void FrictionSolver::Impl::Prepare() {
+void FrictionSolver::Impl::Prepare(double rho_share) {
   const auto& contacts = *problem.contacts;
   delassus_inverse.resize(contacts.size());
   scale.resize(contacts.size());
@@ -136,7 +140,9 @@ void FrictionSolver::Impl::Prepare() {
       tangent += square * 2 / (own.trace() - along);
     }
     delassus_inverse[k] = 1 / mean;
-    const Scaling rho{c.normal, kRhoNormal / normal, kRhoTangent / tangent};
+    const Scaling rho{c.normal,
+                      rho_share * kRhoNormal / normal,
+                      rho_share * kRhoTangent / tangent};
     scale[k] = {rho, rho.Power(-1), rho.Power(0.5), rho.Power(-0.5)};
     if (c.exact()) exact_on[c.vertex[0]] = static_cast<int>(k);
   }
@@ -441,9 +447,6 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
   s.stats = {};
   s.v = *v;
   s.forces = *forces;
-  s.Prepare();
-  if (!s.Factor()) return s.stats;
-  const double first = s.stats.factor_seconds;
   const Stopwatch watch;
   const auto split = [&](int attempt) {
     return problem.contacts->empty()
@@ -451,6 +454,8 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
                : s.Split(options.admm_iterations << attempt);
   };
   for (int attempt = 0; attempt <= options.retries; ++attempt) {
+    s.Prepare(kRhoOfAttempt[attempt % std::size(kRhoOfAttempt)]);
+    if (!s.Factor()) return s.stats;
     s.stats.converged = split(attempt);
     if (!s.stats.converged && !s.in_double && s.Coarse())
       s.stats.converged = s.FactorInDouble() && split(attempt);
@@ -458,7 +463,7 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
     s.stats.converged = s.stats.converged || s.Newton();
     if (s.stats.converged) break;
   }
-  s.stats.solve_seconds = watch.seconds() - s.stats.factor_seconds + first;
+  s.stats.solve_seconds = watch.seconds() - s.stats.factor_seconds;
   s.Linearize();
   s.CountModes();
   *v = s.v;

@@ -72,6 +72,7 @@ SimulatorSetup MakeSetup(const SceneOptions& options,
                          const Material& material) {
   SimulatorSetup setup;
   setup.faces = garment.faces;
+  setup.cloth = garment.placed;
   setup.mass = VertexMasses(garment, material);
   for (const std::string& name : ChosenEffects(options, garment, material))
     setup.effects.push_back(

@@ -57,6 +57,7 @@ struct Simulator::Impl {
   Outcome Iterate(SubstepRecord* sub, StepStats* stats);
   bool SweepCloth(int round, SubstepRecord* sub, StepStats* stats);
   ClothState End(const SubstepRecord& sub) const;
+  VectorXd VertexStiffness() const;
   Outcome Substep(const Points& body0,
                   const Points& body1,
                   SubstepRecord* sub,
@@ -83,6 +84,7 @@ struct Simulator::Impl {
   std::unique_ptr<BodyContactDetector> detector;
   std::unique_ptr<ClothContactDetector> cloth_detector;
   VectorXd weight;
+  VectorXd stiffness;  // of a vertex among others that hold still, N/m
   Points contact_force, exact_force;  // of all contacts; of exact ones
   // The last forces of cloth on cloth, by the contact's vertices.
   std::map<std::array<int, 4>, Vector3d> cloth_force;
@@ -110,8 +112,23 @@ Simulator::Impl::Impl(SimulatorSetup s) : setup(std::move(s)) {
     detector =
         std::make_unique<BodyContactDetector>(setup.body, setup.body_faces);
   weight = kStandardGravity * setup.mass;
+  stiffness = VertexStiffness();
   contact_force.setZero(3, n);
   exact_force.setZero(3, n);
+}
+
+// Along its stiffest axis, at the position that came with the setup. A
+// constant: what depends on it needs no derivative.
+VectorXd Simulator::Impl::VertexStiffness() const {
+  VectorXd k = VectorXd::Zero(pattern->size);
+  if (setup.cloth.cols() == 0) return k;
+  BlockMatrix a(pattern);
+  const ClothState still{setup.cloth, Points::Zero(3, pattern->size)};
+  for (const auto& effect : setup.effects)
+    effect->AddStiffness(still, 1, 0, &a);
+  for (int i = 0; i < pattern->size; ++i)
+    k[i] = a.diagonal(i).diagonal().maxCoeff();
+  return k;
 }
 
 void Simulator::Impl::DetectContacts(const Points& b0,
@@ -127,7 +144,7 @@ void Simulator::Impl::DetectContacts(const Points& b0,
                      b1,
                      sub->start.x,
                      sub->start.v,
-                     setup.mass,
+                     setup.mass / sub->dt + sub->dt * stiffness,
                      &sub->contacts,
                      &sub->sources,
                      v1);

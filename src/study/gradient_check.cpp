@@ -165,7 +165,7 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
       errors[s].push_back(column.Compare(d, h));
       if (last.value.size() > 0) {
         column.Compare(Extrapolated(last, d, options.steps[s - 1] / h), h);
-        jumps =
+        jumps |=
             d.value.norm() > kJump * noise &&
             h * d.value.norm() > 0.5 * options.steps[s - 1] * last.value.norm();
       }

@@ -409,7 +409,6 @@ RandomScene Draw::Scene() {
       stiffest_ * dt * dt / (scene_.material.density * height * height);
   drawn.board = std::get<IsotropicBending>(scene_.material.bending).stiffness /
                 (softest_ * areas.mean());
-  drawn.squeezed = kind < 0.2;
   drawn.words = words_.str();
   drawn.scene = std::move(scene_);
   return drawn;
@@ -433,9 +432,6 @@ std::string KnownBorder(const RandomScene& drawn,
   if (breach.limit == "throws" || breach.limit == "derivative") return "";
   if (drawn.stiffness > kRounding)
     return "slivers so thin that rounding decides";
-  if (breach.limit == "penetration" && drawn.squeezed)
-    return "boards press with a thousand times the cloth's weight: contacts "
-           "that share a vertex yield";
   if (breach.limit == "penetration" && outcome.step.stopped > 0)
     return "cloth stopped on its way through cloth is in the way of the body";
   if (breach.limit != "energy") return "";

@@ -234,7 +234,7 @@ class TangledTest : public SelfContactTest {
   void Advance(int frames) {
     for (int k = 0; k < frames; ++k)
       ASSERT_TRUE(simulator_->Advance(body_, body_, kFrame, &state_, &stats_));
-    EXPECT_EQ(stats_.missed, 0);
+    EXPECT_EQ(stats_.missed, 0) << stats_.worst_residual;
   }
   int before_;
 };

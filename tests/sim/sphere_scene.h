@@ -122,6 +122,7 @@ inline SimulatorSetup ClothSetup(const Garment& garment,
   material.bending = IsotropicBending{1e-5};
   SimulatorSetup setup;
   setup.faces = garment.faces;
+  setup.cloth = garment.placed;
   setup.mass = VertexMasses(garment, material);
   setup.effects.push_back(std::make_unique<Inertia>());
   setup.effects.push_back(

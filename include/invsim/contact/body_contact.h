@@ -39,10 +39,10 @@ struct BodyContactOptions {
   double friction = 0.3;        // mu
   double margin = 0.003;        // how far beyond h contacts are sought, m
   double recovery_speed = 1.0;  // at most, out of the body, m/s
-  // Compliance of contacts that share a vertex, in units of dt/m: a force of
-  // one weight yields by this times g dt^2 (25 nm at dt = 5 ms). Cloth that is
-  // pulled into a crease pulls with thousands of weights.
-  double shared_compliance = 1e-4;
+  // Compliance of contacts that share a vertex, as a share of the vertex's own:
+  // they yield by this much of the way on which their force would take the
+  // vertex if its neighbours held still.
+  double shared_compliance = 1e-2;
 };
 void Describe(OptionTable* table, BodyContactOptions* options);
 
@@ -95,7 +95,8 @@ class BodyContactDetector {
   int FindInside(const Points& body, const Points& x);
 
   // The contacts of a sub-step in which the body moves from body0 to body1 and
-  // the cloth starts at x0 with velocity v0. `mass` in kg per vertex. Contacts
+  // the cloth starts at x0 with velocity v0. `resistance`, per vertex: the
+  // force that gives it 1 m/s while its neighbours hold still, N s/m. Contacts
   // are sought as far as v0 takes a vertex and, if `v1` is given, a guess at
   // the velocity at the end, as far as that does.
   void Detect(const BodyContactOptions& options,
@@ -104,7 +105,7 @@ class BodyContactDetector {
               const Points& body1,
               const Points& x0,
               const Points& v0,
-              const VectorXd& mass,
+              const VectorXd& resistance,
               std::vector<Contact>* contacts,
               std::vector<BodyContact>* sources,
               const Points* v1 = nullptr);

@@ -19,8 +19,8 @@
 // Newton on the Alart-Curnier form goes on from the best iterate: its Jacobian
 // is factorised once, and while few contacts change their mode GMRES with that
 // factor solves the later iterations. If Newton stagnates (it may cycle between
-// modes), splitting goes on twice as long and Newton is tried again; what is
-// left is reported.
+// modes), splitting goes on with another rho, twice as long, and Newton is
+// tried again; what is left is reported.
 
 #include <memory>
 #include <vector>

@@ -86,7 +86,10 @@ struct Pin {
 // cloth needs something else that resists it (mass damping, pins). A
 // SelfContact among the effects keeps layers of cloth apart.
 struct SimulatorSetup {
-  Faces faces;    // of the cloth
+  Faces faces;  // of the cloth
+  // Any usual position of the cloth, to know how stiff it is there; without
+  // it only the mass resists a force (BodyContactOptions::shared_compliance).
+  Points cloth;
   VectorXd mass;  // kg per vertex
   std::vector<std::unique_ptr<Effect>> effects;
   std::vector<Pin> pins;

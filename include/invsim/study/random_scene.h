@@ -45,7 +45,6 @@ struct RandomScene {
   double stiffness = 0;
   // B / (Y A): how stiff it bends for how it stretches. Fits are below 0.01.
   double board = 0;
-  bool squeezed = false;  // between boards
 };
 
 RandomScene DrawScene(std::uint64_t seed);

@@ -109,6 +109,7 @@ void EvalCommand::PrintOne(const RunEvaluation& e,
   if (context.out.empty()) return;
   const fs::path folder(context.out);
   WriteFileBytes((folder / "evaluation.json").string(), EvaluationJson(e));
+  WriteFileBytes((folder / "report.html").string(), EvaluationPage(e));
 }
 
 void EvalCommand::PrintAll(const std::vector<RunEvaluation>& all,
@@ -119,6 +120,7 @@ void EvalCommand::PrintAll(const std::vector<RunEvaluation>& all,
   WriteFileBytes((folder / "evaluation.json").string(), EvaluationsJson(all));
   WriteFileBytes((folder / "evaluation.csv").string(), EvaluationsCsv(all));
   WriteFileBytes((folder / "table.md").string(), ResultsTable(all));
+  WriteFileBytes((folder / "report.html").string(), EvaluationsPage(all));
 }
 
 ExitCode EvalCommand::Run(const CommandContext& context) {
@@ -129,7 +131,8 @@ ExitCode EvalCommand::Run(const CommandContext& context) {
   if (!context.out.empty()) {
     std::error_code failed;
     fs::create_directories(context.out, failed);
-    for (const char* file : {"evaluation.json", "evaluation.csv", "table.md"})
+    for (const char* file :
+         {"evaluation.json", "evaluation.csv", "table.md", "report.html"})
       if (!force_ && fs::exists(fs::path(context.out) / file))
         throw UsageError(context.out +
                          ": holds an evaluation already; choose another --out, "

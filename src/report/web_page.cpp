@@ -146,9 +146,9 @@ std::string FormatWebPage(const WebPage& page) {
       EscapeHtml(page.title) + "</title><style>" + kPageStyle +
       "</style></head>\n<body><h1>" + EscapeHtml(page.title) + "</h1><p>" +
       EscapeHtml(page.lead) + "</p>\n" + (page.meshes.empty() ? "" : kStage) +
-      "<div class=\"columns\">" + Facts(page);
+      "<div class=\"columns\">" + Facts(page) + "<div>";
   for (const Chart& chart : page.charts) html += FormatSvg(chart) + "\n";
-  html += "</div>\n";
+  html += "</div></div>\n";
   if (!page.details.empty())
     html += "<pre>" + EscapeHtml(page.details) + "</pre>\n";
   // Last, for it looks for the charts.

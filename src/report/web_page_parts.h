@@ -27,7 +27,6 @@ canvas { width: 100%; height: 32rem; display: block; touch-action: none;
 .columns { display: grid; gap: 1rem 1.5rem;
   grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); }
 .columns > * { min-width: 0; }
-.columns > div { grid-row: span 2; }
 table { border-collapse: collapse; }
 td { padding: .12rem .8rem .12rem 0; border-bottom: 1px solid var(--line);
   vertical-align: top; overflow-wrap: anywhere; }

@@ -114,6 +114,8 @@ TEST_F(EvalCommandTest, AFolderOfRunsGivesATableAndFiles) {
   EXPECT_THAT(
       ReadFileBytes((directory_ / "evaluation/evaluation.csv").string()),
       HasSubstr("body_v2v_mean_mm"));
+  EXPECT_THAT(ReadFileBytes((directory_ / "evaluation/report.html").string()),
+              HasSubstr("Evaluation of 2 runs"));
   EXPECT_EQ(Eval(arguments).exit_code, 2);
   EXPECT_EQ(Eval(arguments + " --force").exit_code, 0);
 }

@@ -64,5 +64,32 @@ TEST(EvaluationReport, CsvHasARowPerRunAndEmptyCells) {
   EXPECT_THAT(csv, Not(HasSubstr("nan")));
 }
 
+// A curve for what is known of the frames, and none for what is not.
+TEST(EvaluationReport, PageHasACurvePerKnownQuantity) {
+  RunEvaluation run = MakeRun("r<1>", "shirt", {10, 20});
+  run.metrics.frames[1].joint = 3;
+  const std::string page = EvaluationPage(run);
+  EXPECT_THAT(page, HasSubstr("Evaluation of r&lt;1&gt;"));
+  EXPECT_THAT(page, HasSubstr(">body<"));
+  EXPECT_THAT(page, HasSubstr(">joints<"));
+  EXPECT_THAT(page, HasSubstr("body_tpose_v2v_mean_mm"));
+  EXPECT_THAT(page, Not(HasSubstr(">cloth<")));
+  EXPECT_THAT(page, HasSubstr("<svg"));
+}
+
+// Frame 1 is known of one shirt only.
+TEST(EvaluationReport, PageOfRunsHasACurvePerGarment) {
+  const std::string page = EvaluationsPage({MakeRun("a", "shirt", {10, 20}),
+                                            MakeRun("b", "shirt", {30}),
+                                            MakeRun("c", "dress", {5})});
+  EXPECT_THAT(page, HasSubstr("Evaluation of 3 runs"));
+  EXPECT_THAT(page, HasSubstr("body [mm]"));
+  EXPECT_THAT(page, HasSubstr(">shirt<"));
+  EXPECT_THAT(page, HasSubstr(">dress<"));
+  EXPECT_THAT(page, Not(HasSubstr("joints [mm]")));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, HasSubstr("| body | 2.00"));
+}
+
 }  // namespace
 }  // namespace invsim

@@ -40,6 +40,11 @@ std::string EvaluationsCsv(const std::vector<RunEvaluation>& evaluations);
 // stand beside, marked as of other data. Markdown.
 std::string ResultsTable(const std::vector<RunEvaluation>& evaluations);
 
+// Pages that open from disk (web_page.h): the distances frame by frame, and all
+// figures; of several runs a curve for each garment, and the results table.
+std::string EvaluationPage(const RunEvaluation& evaluation);
+std::string EvaluationsPage(const std::vector<RunEvaluation>& evaluations);
+
 // A published result to stand beside ours, millimetres.
 struct PublishedResult {
   const char* row;   // "body"

@@ -5,6 +5,9 @@ namespace invsim {
 namespace {
 
 enum Side { kLeft, kRight };
+constexpr int kPelvis = 0, kSpine = 3;
+// Among the starts of a leg.
+constexpr int kForward = 2, kBackward = 3;
 
 // A rotation of the left side as its mirror image.
 Vector3d Mirrored(Side side, double x, double y, double z) {
@@ -62,6 +65,16 @@ Limb Leg(Side side) {
   return limb;
 }
 
+// Legs that took each other's place have turned pelvis and spine as well. In a
+// stride one leg starts as the other does in its own.
+Limb BothLegs() {
+  Limb right = Leg(kRight);
+  std::swap(right.starts[kForward], right.starts[kBackward]);
+  Limb legs = Both(Leg(kLeft), right);
+  legs.joints.insert(legs.joints.end(), {kPelvis, kSpine});
+  return legs;
+}
+
 }  // namespace
 
 BodyParameters LimbStart::From(const BodyParameters& body) const {
@@ -73,7 +86,7 @@ BodyParameters LimbStart::From(const BodyParameters& body) const {
 
 std::vector<Limb> Limbs() {
   const Limb left = Arm(kLeft), right = Arm(kRight);
-  return {Both(left, right), left, right, Leg(kLeft), Leg(kRight)};
+  return {Both(left, right), left, right, BothLegs(), Leg(kLeft), Leg(kRight)};
 }
 
 }  // namespace invsim

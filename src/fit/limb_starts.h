@@ -4,8 +4,8 @@
 
 // Poses in which single limbs are tried again. A first fit of a whole body
 // loses limbs where they lie close together: arms folded before the chest,
-// legs side by side. Both then fit the points of one, and no small step leads
-// away from that.
+// legs side by side. Both then fit the points of one, or each those of the
+// other, and no small step leads away from that.
 
 #include <vector>
 
@@ -29,8 +29,8 @@ struct Limb {
 };
 
 // Both arms at once, each arm (out, down, forward, up, before the belly; with
-// three bends of the elbow), each leg (straight, spread, in two strides, lifted
-// with the knee bent).
+// three bends of the elbow); both legs, in either stride, with the pelvis, each
+// leg (straight, spread, in two strides, lifted with the knee bent).
 std::vector<Limb> Limbs();
 
 }  // namespace invsim

@@ -6,28 +6,17 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <set>
 
 #include "invsim/base/error.h"
 #include "invsim/base/names.h"
-#include "invsim/cloth/clearance.h"
 #include "invsim/cloth/cone_cut.h"
 #include "invsim/cloth/section_tube.h"
-#include "invsim/geometry/cut.h"
-#include "invsim/geometry/remesh.h"
 #include "invsim/geometry/scalar_grid.h"
-#include "invsim/geometry/self_intersection.h"
 #include "invsim/geometry/surface_index.h"
-#include "invsim/geometry/topology.h"
+#include "sewing.h"
 
 namespace invsim {
 namespace {
-
-using Field = std::function<double(const Vector3d&)>;
-
-// What is promised of every garment, metres.
-constexpr double kVertexClearance = 0.003;
-constexpr double kFaceClearance = 0.002;
 
 // Distance of the sections of a tube, and how wide two solids are blended
 // where they meet (an armpit), metres.
@@ -36,9 +25,6 @@ constexpr double kBlend = 0.04;
 constexpr double kLegBlend = 0.025;
 // How far under the skin the trunk's tube starts, metres.
 constexpr double kSunk = 0.03;
-// How often triangles that cross are drawn apart.
-constexpr int kUntanglingRounds = 20;
-
 // 0 below 0, 1 above 1, smooth between.
 double SmoothStep(double t) {
   const double s = std::clamp(t, 0.0, 1.0);
@@ -167,13 +153,6 @@ class Tailor {
   void AddCut(const Field& keep) { cuts_.push_back(keep); }
 
   Garment Sew(const Vector3d& inside);
-  void FairBoundary(TriangleMesh* mesh) const;
-  void OntoSurface(TriangleMesh* mesh) const;
-  void KeepClear(TriangleMesh* mesh) const;
-  void Check(const TriangleMesh& mesh) const;
-  [[noreturn]] void Fail(const std::string& why) const {
-    throw InputError("cannot make a " + name_ + " for this body: " + why);
-  }
 
   std::string name_;
   const TPoseBody& body_;
@@ -199,7 +178,9 @@ double Tailor::Reach(const Vector3d& from, const Vector3d& direction) const {
   double near = 0.0;
   while (grid_.Sample(from + near * direction) < 0.0) {
     near += step;
-    if (near > 2.0) Fail("a tube has no side");
+    if (near > 2.0)
+      throw InputError("cannot make a " + name_ +
+                       " for this body: a tube has no side");
   }
   double low = std::max(near - step, 0.0), high = near;
   for (int k = 0; k < 20; ++k) {
@@ -373,107 +354,17 @@ Garment Tailor::Trousers() {
 }
 
 Garment Tailor::Sew(const Vector3d& inside) {
-  TriangleMesh mesh = ZeroSurface(grid_);
-  for (const Field& keep : cuts_) {
-    VectorXd values(mesh.vertices.cols());
-    for (Eigen::Index v = 0; v < values.size(); ++v)
-      values[v] = keep(mesh.vertices.col(v));
-    mesh = CutMesh(mesh, values);
-    if (mesh.faces.cols() == 0) Fail("nothing is left after the cuts");
-  }
-  RemeshOptions remesh;
-  remesh.corner_angle = 180.0;
-  mesh = Remesh(PieceNearest(mesh, inside), options_.edge_length, remesh);
-  FairBoundary(&mesh);
-  OntoSurface(&mesh);
-  KeepClear(&mesh);
-  Check(mesh);
+  const TriangleMesh mesh = SewGarment({name_,
+                                        grid_,
+                                        cuts_,
+                                        inside,
+                                        skin_,
+                                        name_ == "trousers" ? 3 : 4,
+                                        options_.edge_length,
+                                        options_.ease});
   Garment garment = GarmentFromRestMesh(mesh.vertices, mesh.faces);
   garment.rest_angles_from_placed = false;
   return garment;
-}
-
-// Evens out the openings: Taubin's smoothing along the boundary, which does
-// not shrink it (A signal processing approach to fair surface design, 1995).
-void Tailor::FairBoundary(TriangleMesh* mesh) const {
-  for (const std::vector<int>& loop : BoundaryLoops(mesh->faces)) {
-    const size_t n = loop.size();
-    for (int round = 0; round < 20; ++round) {
-      const double step = round % 2 == 0 ? 0.5 : -0.53;
-      const Points old = mesh->vertices;
-      for (size_t i = 0; i < n; ++i) {
-        const Vector3d mean =
-            0.5 * (old.col(loop[(i + n - 1) % n]) + old.col(loop[(i + 1) % n]));
-        mesh->vertices.col(loop[i]) += step * (mean - old.col(loop[i]));
-      }
-    }
-  }
-}
-
-// Newton steps onto the smooth zero surface, off the polygons' chords.
-void Tailor::OntoSurface(TriangleMesh* mesh) const {
-  for (Eigen::Index v = 0; v < mesh->vertices.cols(); ++v) {
-    for (int step = 0; step < 4; ++step) {
-      const Vector3d x = mesh->vertices.col(v), g = grid_.Gradient(x);
-      if (g.squaredNorm() < 0.01) break;
-      const double move = grid_.Sample(x) / g.squaredNorm();
-      mesh->vertices.col(v) -=
-          std::clamp(move, -grid_.cell(), grid_.cell()) * g;
-    }
-  }
-}
-
-// Off the skin, and faces off each other: where large triangles cross, at the
-// crotch and in armpits, their corners give way towards their neighbours.
-void Tailor::KeepClear(TriangleMesh* mesh) const {
-  for (int round = 0;; ++round) {
-    PushClear(mesh->faces,
-              skin_,
-              std::max(0.6 * options_.ease, kVertexClearance),
-              std::max(0.5 * options_.ease, kFaceClearance),
-              &mesh->vertices);
-    const auto crossings = SelfIntersections(mesh->vertices, mesh->faces);
-    if (crossings.empty() || round == kUntanglingRounds) return;
-    std::set<int> corners;
-    for (const auto& pair : crossings)
-      for (const int f : pair)
-        for (int c = 0; c < 3; ++c) corners.insert(mesh->faces(c, f));
-    Points sum = Points::Zero(3, mesh->vertices.cols());
-    VectorXd count = VectorXd::Zero(mesh->vertices.cols());
-    for (const Edge& e : Edges(mesh->faces)) {
-      sum.col(e.a) += mesh->vertices.col(e.b);
-      sum.col(e.b) += mesh->vertices.col(e.a);
-      count[e.a] += 1;
-      count[e.b] += 1;
-    }
-    for (const int v : corners)
-      mesh->vertices.col(v) +=
-          0.5 * (sum.col(v) / count[v] - mesh->vertices.col(v));
-  }
-}
-
-void Tailor::Check(const TriangleMesh& mesh) const {
-  const size_t openings = BoundaryLoops(mesh.faces).size();
-  const size_t expected = name_ == "trousers" ? 3 : 4;
-  if (openings != expected)
-    Fail(std::to_string(openings) + " openings, expected " +
-         std::to_string(expected));
-  // A disc with holes closed to a sphere: no handle joins its parts.
-  if (EulerCharacteristic(mesh.faces) != 2 - static_cast<int>(expected))
-    Fail("its parts have grown together");
-  const auto crossings = SelfIntersections(mesh.vertices, mesh.faces);
-  if (!crossings.empty())
-    Fail("faces " + std::to_string(crossings[0][0]) + " and " +
-         std::to_string(crossings[0][1]) + " cross");
-  const Clearance c = MeasureClearance(mesh.vertices, mesh.faces, skin_);
-  if (c.vertices < kVertexClearance || c.faces < kFaceClearance) {
-    char text[80];
-    std::snprintf(text,
-                  sizeof(text),
-                  "it comes within %.1f mm of the skin",
-                  1e3 * std::min(c.vertices, c.faces));
-    Fail(text);
-  }
 }
 
 void CheckOptions(const AuthoredGarmentOptions& options) {

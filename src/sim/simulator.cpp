@@ -9,13 +9,10 @@
 
 #include "energy_balance.h"
 #include "invsim/base/stopwatch.h"
+#include "step_contacts.h"
 
 namespace invsim {
 namespace {
-
-// How often a step is solved again with contacts for cloth that touched cloth
-// on its way, before it is stopped.
-constexpr int kSweeps = 4;
 
 // How often contacts that a solution shows to be missing are added to a
 // sub-step.
@@ -39,25 +36,13 @@ struct Simulator::Impl {
     bool factored = true;  // that it is not finite has another reason
   };
 
-  void DetectContacts(const Points& b0,
-                      const Points& b1,
-                      const Points* v1,
-                      SubstepRecord* sub,
-                      StepStats* stats);
-  bool FindLateContacts(const Points& b0,
-                        const Points& b1,
-                        SubstepRecord* sub,
-                        StepStats* stats);
   void Linearize(const SubstepRecord& sub,
                  LinearizationRecord* lin,
                  Timers* timers);
-  void DetectClothContacts(SubstepRecord* sub, StepStats* stats);
   std::vector<Vector3d> StartForces(const SubstepRecord& sub) const;
   Outcome Solve(SubstepRecord* sub, LinearizationRecord* lin, StepStats* stats);
   Outcome Iterate(SubstepRecord* sub, StepStats* stats);
-  bool SweepCloth(int round, SubstepRecord* sub, StepStats* stats);
   ClothState End(const SubstepRecord& sub) const;
-  VectorXd VertexStiffness() const;
   Outcome Substep(const Points& body0,
                   const Points& body1,
                   SubstepRecord* sub,
@@ -81,10 +66,8 @@ struct Simulator::Impl {
   bool velocity_dependent = false;
   std::shared_ptr<const BlockPattern> pattern;
   std::unique_ptr<FrictionSolver> solver;
-  std::unique_ptr<BodyContactDetector> detector;
-  std::unique_ptr<ClothContactDetector> cloth_detector;
+  std::unique_ptr<StepContacts> contacts;
   VectorXd weight;
-  VectorXd stiffness;  // of a vertex among others that hold still, N/m
   Points contact_force, exact_force;  // of all contacts; of exact ones
   // The last forces of cloth on cloth, by the contact's vertices.
   std::map<std::array<int, 4>, Vector3d> cloth_force;
@@ -101,100 +84,14 @@ Simulator::Impl::Impl(SimulatorSetup s) : setup(std::move(s)) {
     names.push_back(effect->name());
     inertia = inertia || effect->name() == "inertia";
     velocity_dependent = velocity_dependent || effect->depends_on_velocity();
-    if (const auto* self = dynamic_cast<const SelfContact*>(effect.get()))
-      cloth_detector = std::make_unique<ClothContactDetector>(
-          *self, setup.faces, setup.mass);
   }
   pattern = builder.Build();
   for (const auto& effect : setup.effects) effect->Bind(*pattern);
   solver = std::make_unique<FrictionSolver>(pattern);
-  if (setup.body_faces.cols() > 0)
-    detector =
-        std::make_unique<BodyContactDetector>(setup.body, setup.body_faces);
+  contacts = std::make_unique<StepContacts>(setup, pattern);
   weight = kStandardGravity * setup.mass;
-  stiffness = VertexStiffness();
   contact_force.setZero(3, n);
   exact_force.setZero(3, n);
-}
-
-// Along its stiffest axis, at the position that came with the setup. A
-// constant: what depends on it needs no derivative.
-VectorXd Simulator::Impl::VertexStiffness() const {
-  VectorXd k = VectorXd::Zero(pattern->size);
-  if (setup.cloth.cols() == 0) return k;
-  BlockMatrix a(pattern);
-  const ClothState still{setup.cloth, Points::Zero(3, pattern->size)};
-  for (const auto& effect : setup.effects)
-    effect->AddStiffness(still, 1, 0, &a);
-  for (int i = 0; i < pattern->size; ++i)
-    k[i] = a.diagonal(i).diagonal().maxCoeff();
-  return k;
-}
-
-void Simulator::Impl::DetectContacts(const Points& b0,
-                                     const Points& b1,
-                                     const Points* v1,
-                                     SubstepRecord* sub,
-                                     StepStats* stats) {
-  if (detector) {
-    stats->contact_queries += pattern->size;
-    detector->Detect(setup.contact,
-                     sub->dt,
-                     b0,
-                     b1,
-                     sub->start.x,
-                     sub->start.v,
-                     setup.mass / sub->dt + sub->dt * stiffness,
-                     &sub->contacts,
-                     &sub->sources,
-                     v1);
-  }
-  for (const Pin& pin : setup.pins) {
-    Contact contact;
-    contact.kind = ContactKind::kPin;
-    contact.vertex[0] = pin.vertex;
-    contact.velocity = (pin.position - sub->start.x.col(pin.vertex)) / sub->dt;
-    // A pinned vertex cannot also be in contact.
-    size_t kept = 0;
-    for (size_t k = 0; k < sub->sources.size(); ++k) {
-      if (sub->sources[k].vertex == pin.vertex) continue;
-      sub->contacts[kept] = sub->contacts[k];
-      sub->sources[kept] = sub->sources[k];
-      sub->sources[kept].contact = static_cast<int>(kept);
-      ++kept;
-    }
-    sub->contacts.erase(sub->contacts.begin() + kept,
-                        sub->contacts.begin() + sub->sources.size());
-    sub->sources.resize(kept);
-    sub->contacts.push_back(contact);
-  }
-}
-
-// Contacts are sought as far as vertices can get at the speed they start with,
-// and a margin. In a long step gravity alone takes them further. True if one
-// that got further met something: the contacts are then those found along the
-// way it took.
-bool Simulator::Impl::FindLateContacts(const Points& b0,
-                                       const Points& b1,
-                                       SubstepRecord* sub,
-                                       StepStats* stats) {
-  const LinearizationRecord& lin = sub->linearizations.back();
-  const Points v1 = Eigen::Map<const Points>(lin.v.data(), 3, pattern->size);
-  const double margin = setup.contact.margin / sub->dt;
-  if (!((v1.colwise().norm().array() >
-         sub->start.v.colwise().norm().array() + margin)
-            .any()))
-    return false;
-  SubstepRecord again;
-  again.dt = sub->dt;
-  again.start = sub->start;
-  DetectContacts(b0, b1, &v1, &again, stats);
-  if (again.sources.size() <= sub->sources.size()) return false;
-  sub->contacts = std::move(again.contacts);
-  sub->sources = std::move(again.sources);
-  sub->cloth_sources.clear();
-  sub->linearizations.clear();
-  return true;
 }
 
 void Simulator::Impl::Linearize(const SubstepRecord& sub,
@@ -228,14 +125,6 @@ void Simulator::Impl::Linearize(const SubstepRecord& sub,
     lin->a.diagonal(i).diagonal().array() += inertia_i;
     lin->b.segment<3>(3 * i) += inertia_i * sub.start.v.col(i);
   }
-}
-
-void Simulator::Impl::DetectClothContacts(SubstepRecord* sub,
-                                          StepStats* stats) {
-  cloth_detector->Detect(
-      sub->dt, sub->start.x, sub->start.v, &sub->contacts, &sub->cloth_sources);
-  stats->most_crossings =
-      std::max(stats->most_crossings, cloth_detector->crossings());
 }
 
 // Last known forces start the splitting.
@@ -318,58 +207,30 @@ Simulator::Impl::Outcome Simulator::Impl::Iterate(SubstepRecord* sub,
   return outcome;
 }
 
-// True if cloth touches cloth on its way; there are then contacts against it.
-// After the last round it is stopped instead.
-bool Simulator::Impl::SweepCloth(int round,
-                                 SubstepRecord* sub,
-                                 StepStats* stats) {
-  const Stopwatch watch;
-  const VectorXd& v = sub->linearizations.back().v;
-  const Points x1 = sub->start.x + sub->dt * Eigen::Map<const Points>(
-                                                 v.data(), 3, v.size() / 3);
-  bool again = false;
-  if (round < kSweeps) {
-    again = cloth_detector->Sweep(x1, &sub->contacts, &sub->cloth_sources) > 0;
-    stats->sweep_solves += again;
-  } else {
-    sub->kept = cloth_detector->Stop(x1);
-    const auto stopped = (sub->kept.array() < 1).count();
-    stats->stopped += static_cast<int>(stopped);
-    if (stopped == 0) sub->kept.resize(0);
-  }
-  stats->detection_seconds += watch.seconds();
-  return again;
-}
-
 Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
                                                   const Points& body1,
                                                   SubstepRecord* sub,
                                                   StepStats* stats) {
   Points b0, b1;
-  if (detector) {
+  if (contacts->has_body()) {
     b0 = Blend(body0, body1, sub->s0);
     b1 = Blend(body0, body1, sub->s1);
   }
-  const Stopwatch detection;
-  DetectContacts(b0, b1, nullptr, sub, stats);
-  if (cloth_detector) DetectClothContacts(sub, stats);
-  stats->detection_seconds += detection.seconds();
+  contacts->Find(b0, b1, sub, stats);
   Outcome outcome = Iterate(sub, stats);
-  for (int k = 0; k < kLateRounds && detector && outcome.finite; ++k) {
-    const Stopwatch late;
-    const bool found = FindLateContacts(b0, b1, sub, stats);
-    if (found && cloth_detector) DetectClothContacts(sub, stats);
-    stats->detection_seconds += late.seconds();
-    if (!found) break;
+  const auto again = [&] {
     stats->worst_residual = 0;  // of an attempt that is not kept
     outcome = Iterate(sub, stats);
-  }
-  if (cloth_detector)
-    for (int round = 0; outcome.finite && SweepCloth(round, sub, stats);
-         ++round) {
-      stats->worst_residual = 0;  // of an attempt that is not kept
-      outcome = Iterate(sub, stats);
-    }
+  };
+  if (contacts->has_body())
+    for (int k = 0; k < kLateRounds && outcome.finite &&
+                    contacts->FindLate(b0, b1, sub, stats);
+         ++k)
+      again();
+  if (contacts->self_contact_options())
+    for (int round = 0; outcome.finite && contacts->Sweep(round, sub, stats);
+         ++round)
+      again();
   stats->most_contacts =
       std::max(stats->most_contacts, static_cast<int>(sub->contacts.size()));
   stats->most_cloth_contacts = std::max(
@@ -491,7 +352,7 @@ const BodyContactOptions& Simulator::contact_options() const {
   return impl_->setup.contact;
 }
 const SelfContactOptions* Simulator::self_contact_options() const {
-  return impl_->cloth_detector ? &impl_->cloth_detector->options() : nullptr;
+  return impl_->contacts->self_contact_options();
 }
 std::shared_ptr<const BlockPattern> Simulator::pattern() const {
   return impl_->pattern;
@@ -544,7 +405,7 @@ bool Simulator::Advance(const Points& body0,
 }
 
 int Simulator::FindInside(const Points& body, const ClothState& state) {
-  return impl_->detector ? impl_->detector->FindInside(body, state.x) : 0;
+  return impl_->contacts->FindInside(body, state.x);
 }
 
 void Simulator::Forget() { impl_->last_x.resize(3, 0); }

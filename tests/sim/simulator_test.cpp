@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "invsim/body/rotation.h"
+#include "invsim/geometry/surface_index.h"
 #include "invsim/sim/sensitivity.h"
 #include "sphere_scene.h"
 
@@ -280,7 +281,7 @@ TEST(Simulator, AGrooveHoldsClothHoweverHardItIsPulled) {
   for (int i = 0; i < strip.num_vertices(); ++i) {
     hardest = std::max(hardest,
                        simulator.contact_force().col(i).norm() /
-                           (kFall * simulator.mass()[i]));
+                           (kGravity * simulator.mass()[i]));
     closest =
         std::min(closest, surface.Nearest(state.x.col(i)).signed_distance);
   }

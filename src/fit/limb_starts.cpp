@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limb_starts.h"
 
+#include <utility>
+
 namespace invsim {
 namespace {
 

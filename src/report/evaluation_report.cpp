@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "invsim/report/chart.h"
+#include "text_line.h"
 
 namespace invsim {
 namespace {
@@ -103,15 +104,6 @@ Json Head(const RunEvaluation& e) {
   return json;
 }
 
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 }  // namespace
 
 const std::vector<PublishedResult>& PublishedResults() {
@@ -174,7 +166,8 @@ std::string EvaluationsCsv(const std::vector<RunEvaluation>& evaluations) {
   for (const std::string& key : keys) out << ',' << key;
   out << '\n';
   for (const RunEvaluation& e : evaluations) {
-    out << Quoted(e.run) << ',' << Quoted(e.truth) << ',' << Quoted(e.garment);
+    out << CsvQuoted(e.run) << ',' << CsvQuoted(e.truth) << ','
+        << CsvQuoted(e.garment);
     const auto values = e.metrics.Values();
     for (const std::string& key : keys) {
       out << ',';

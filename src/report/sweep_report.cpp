@@ -8,6 +8,7 @@
 
 #include "invsim/report/chart.h"
 #include "sweep_report_parts.h"
+#include "text_line.h"
 
 namespace invsim {
 
@@ -51,15 +52,6 @@ std::string VerdictOf(const SweepReport& report) {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string CsvQuoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
 
 // Solver work: it carries over to other machines as seconds do not.
 struct WorkColumn {

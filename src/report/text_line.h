@@ -14,6 +14,16 @@ inline std::string Line(const char* format, auto... values) {
   return line;
 }
 
+// A cell of a CSV file.
+inline std::string CsvQuoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
 }  // namespace invsim
 
 #endif  // INVSIM_SRC_REPORT_TEXT_LINE_H_

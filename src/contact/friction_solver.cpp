@@ -160,8 +160,8 @@ bool FrictionSolver::Impl::Factor() {
         augmented.block(p.Find(c.vertex[i], c.vertex[j])) +=
             scale[k].rho.matrix() * (c.weight[i] * c.weight[j]);
   }
+  if (in_double) return FactorInDouble();
   const Stopwatch watch;
-  in_double = false;
   const bool ok = single.Factor(augmented);
   stats.factor_seconds += watch.seconds();
   ++stats.factorizations;
@@ -445,6 +445,7 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
   s.problem = problem;
   s.options = options;
   s.stats = {};
+  s.in_double = false;
   s.v = *v;
   s.forces = *forces;
   const Stopwatch watch;
@@ -454,8 +455,16 @@ FrictionStats FrictionSolver::Solve(const FrictionProblem& problem,
                : s.Split(options.admm_iterations << attempt);
   };
   for (int attempt = 0; attempt <= options.retries; ++attempt) {
-    s.Prepare(kRhoOfAttempt[attempt % std::size(kRhoOfAttempt)]);
-    if (!s.Factor()) return s.stats;
+    // Without contacts there is no rho.
+    if (attempt == 0 || !problem.contacts->empty()) {
+      s.Prepare(kRhoOfAttempt[attempt % std::size(kRhoOfAttempt)]);
+      const bool ok = s.Factor();
+      if (!ok && attempt == 0) return s.stats;
+      if (!ok) {  // what the attempts before came to stands
+        s.stats.factorization_failed = false;
+        break;
+      }
+    }
     s.stats.converged = split(attempt);
     if (!s.stats.converged && !s.in_double && s.Coarse())
       s.stats.converged = s.FactorInDouble() && split(attempt);

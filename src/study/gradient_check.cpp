@@ -40,6 +40,9 @@ constexpr double kJump = 100;
 struct Difference {
   VectorXd value;
   bool same = false;
+  // How far the frame lies off the middle between the two, by the step. If
+  // that does not vanish the frame has another solution than its neighbours.
+  double bend = 0;
 };
 
 // The difference for a step towards zero, from one at a step `ratio` times the
@@ -49,7 +52,8 @@ Difference Extrapolated(const Difference& coarse,
                         double ratio) {
   const double square = ratio * ratio;
   return {(square * fine.value - coarse.value) / (square - 1),
-          coarse.same && fine.same};
+          coarse.same && fine.same,
+          fine.bend};
 }
 
 // Holds one column against differences and keeps the best agreement, that of
@@ -124,14 +128,14 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
     return VectorXd(Stacked(state.x));
   };
   FrameRecord record;
-  run(body.at, &record);
+  const VectorXd middle = run(body.at, &record);
   const auto differ = [&](int k, double h) {
     FrameRecord plus, minus;
     const VectorXd high = run(body.moved(k, h), &plus);
     const VectorXd low = run(body.moved(k, -h), &minus);
-    return Difference{
-        (high - low) / (2 * h),
-        SameContacts(record, plus) && SameContacts(record, minus)};
+    return Difference{(high - low) / (2 * h),
+                      SameContacts(record, plus) && SameContacts(record, minus),
+                      (high + low - 2 * middle).norm() / (2 * h)};
   };
   const std::vector<int> vertices =
       Sensitivity::BodyVertices(simulator->body_faces(), record);
@@ -165,9 +169,10 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
       errors[s].push_back(column.Compare(d, h));
       if (last.value.size() > 0) {
         column.Compare(Extrapolated(last, d, options.steps[s - 1] / h), h);
-        jumps |=
+        jumps =
             d.value.norm() > kJump * noise &&
             h * d.value.norm() > 0.5 * options.steps[s - 1] * last.value.norm();
+        jumps = jumps || d.bend > kJump * noise;
       }
       last = std::move(d);
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mannequin_mesh.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "invsim/base/threads.h"
 #include "invsim/geometry/remesh.h"
 #include "invsim/geometry/scalar_grid.h"
 #include "invsim/geometry/topology.h"
@@ -51,7 +50,7 @@ void SampleBlock(const std::array<int, 3>& first, ScalarGrid* grid) {
 ScalarGrid SampleLeftHalf() {
   ScalarGrid grid(kLow, kHigh, kCell);
   const std::array<int, 3>& n = grid.size();
-  tbb::parallel_for(0, (n[2] + kGridBlock - 1) / kGridBlock, [&](int k) {
+  ParallelFor((n[2] + kGridBlock - 1) / kGridBlock, 1, [&](int k) {
     for (int j = 0; j < n[1]; j += kGridBlock) {
       for (int i = 0; i < n[0]; i += kGridBlock) {
         SampleBlock({i, j, k * kGridBlock}, &grid);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <utility>
 
+#include "invsim/base/threads.h"
 #include "invsim/body/rotation.h"
 #include "prepared_body.h"
 
@@ -50,9 +50,8 @@ Eigen::Matrix<double, 9, 1> RowByRow(const Matrix3d& m) {
 
 template <typename Function>
 void ForBlocks(int count, const Function& function) {
-  const int blocks = (count + kBlock - 1) / kBlock;
-  tbb::parallel_for(0, blocks, [&](int b) {
-    function(b, b * kBlock, std::min(count, (b + 1) * kBlock));
+  ParallelForPieces(count, kBlock, [&](int begin, int end) {
+    function(begin / kBlock, begin, end);
   });
 }
 

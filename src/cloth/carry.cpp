@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/cloth/carry.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cstdio>
 
 #include "invsim/base/error.h"
+#include "invsim/base/threads.h"
 #include "invsim/cloth/clearance.h"
 #include "invsim/geometry/mesh.h"
 #include "invsim/geometry/self_intersection.h"
@@ -68,7 +67,7 @@ Points CarryDisplacement(const Points& cloth,
     for (int c = 0; c < 3; ++c) area[faces(c, f)] += face_area[f] / 3.0;
   const Points displacement = to - from;
   Points moves(3, cloth.cols());
-  tbb::parallel_for(Eigen::Index{0}, cloth.cols(), [&](Eigen::Index i) {
+  ParallelFor(static_cast<int>(cloth.cols()), 1, [&](int i) {
     const Vector3d x = cloth.col(i);
     const VectorXd squared =
         ((from.colwise() - x).colwise().squaredNorm().array() +

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/contact/body_contact.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "invsim/base/options.h"
+#include "invsim/base/threads.h"
 #include "invsim/geometry/surface_index.h"
 
 namespace invsim {
@@ -208,11 +206,9 @@ int BodyContactDetector::FindInside(const Points& body, const Points& x) {
   Impl& s = *impl_;
   s.surface.Update(body);
   s.inside.assign(x.cols(), 0);
-  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(x.cols()), 64),
-                    [&](const tbb::blocked_range<int>& range) {
-                      for (int i = range.begin(); i < range.end(); ++i)
-                        s.inside[i] = s.surface.Contains(x.col(i));
-                    });
+  ParallelFor(static_cast<int>(x.cols()), 64, [&](int i) {
+    s.inside[i] = s.surface.Contains(x.col(i));
+  });
   return static_cast<int>(std::count(s.inside.begin(), s.inside.end(), 1));
 }
 
@@ -235,23 +231,19 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
           ? std::sqrt((body1 - body0).colwise().squaredNorm().maxCoeff()) / dt
           : 0.0;
   std::vector<std::vector<Minimum>> found(n);
-  tbb::parallel_for(
-      tbb::blocked_range<int>(0, n, 64),
-      [&](const tbb::blocked_range<int>& range) {
-        for (int i = range.begin(); i < range.end(); ++i) {
-          const Vector3d x = x0.col(i);
-          const double still = options.thickness + options.margin;
-          double speed = v0.col(i).norm();
-          if (v1) speed = std::max(speed, v1->col(i).norm());
-          s.Find(x, s.inside[i], still + dt * (speed + fastest), &found[i]);
-          std::erase_if(found[i], [&](const Minimum& m) {
-            const Vector3d body = s.Velocity(body0, body1, m.at, dt);
-            double slip = (v0.col(i) - body).norm();
-            if (v1) slip = std::max(slip, (v1->col(i) - body).norm());
-            return m.side > 0 && m.at.distance > still + dt * slip;
-          });
-        }
-      });
+  ParallelFor(n, 64, [&](int i) {
+    const Vector3d x = x0.col(i);
+    const double still = options.thickness + options.margin;
+    double speed = v0.col(i).norm();
+    if (v1) speed = std::max(speed, v1->col(i).norm());
+    s.Find(x, s.inside[i], still + dt * (speed + fastest), &found[i]);
+    std::erase_if(found[i], [&](const Minimum& m) {
+      const Vector3d body = s.Velocity(body0, body1, m.at, dt);
+      double slip = (v0.col(i) - body).norm();
+      if (v1) slip = std::max(slip, (v1->col(i) - body).norm());
+      return m.side > 0 && m.at.distance > still + dt * slip;
+    });
+  });
   contacts->clear();
   sources->clear();
   for (int i = 0; i < n; ++i) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/contact/cloth_contact.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <span>
 
+#include "invsim/base/threads.h"
 #include "invsim/geometry/box_overlap.h"
 #include "invsim/geometry/mesh.h"
 #include "invsim/geometry/self_intersection.h"
@@ -206,7 +204,7 @@ void ClothContactDetector::Impl::AddElements(int f, int g) {
 void ClothContactDetector::Impl::FindTangled(
     const std::vector<std::array<int, 2>>& face_pairs) {
   std::vector<char> crossed(face_pairs.size(), 0);
-  tbb::parallel_for(size_t{0}, face_pairs.size(), [&](size_t k) {
+  ParallelFor(static_cast<int>(face_pairs.size()), 64, [&](int k) {
     crossed[k] = FacesCross(x0, faces, face_pairs[k][0], face_pairs[k][1]);
   });
   tangled.assign(mass.size(), 0);
@@ -242,16 +240,11 @@ void ClothContactDetector::Impl::FindCandidates(const Points& x1) {
   candidates.clear();
   for (const auto& [f, g] : pairs) AddElements(f, g);
   std::ranges::sort(candidates, {}, &Candidate::pair);
-  tbb::parallel_for(
-      tbb::blocked_range<size_t>(0, candidates.size(), 512),
-      [&](const tbb::blocked_range<size_t>& range) {
-        for (size_t k = range.begin(); k < range.end(); ++k) {
-          Candidate& c = candidates[k];
-          c.nearest = Nearest(c.pair.kind, Corners(x0, c.pair));
-          c.reach =
-              room + dt * (Corners(v0, c.pair) * c.nearest.weights).norm();
-        }
-      });
+  ParallelFor(static_cast<int>(candidates.size()), 512, [&](int k) {
+    Candidate& c = candidates[k];
+    c.nearest = Nearest(c.pair.kind, Corners(x0, c.pair));
+    c.reach = room + dt * (Corners(v0, c.pair) * c.nearest.weights).norm();
+  });
 }
 
 // Whether an edge, or two, lead from one element to the other.
@@ -368,11 +361,9 @@ double ClothContactDetector::Impl::Touches(const Candidate& c,
 std::vector<double> ClothContactDetector::Impl::TouchTimes(
     const Points& x1) const {
   std::vector<double> times(candidates.size());
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, times.size(), 512),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      for (size_t k = range.begin(); k < range.end(); ++k)
-                        times[k] = Touches(candidates[k], x1);
-                    });
+  ParallelFor(static_cast<int>(times.size()), 512, [&](int k) {
+    times[k] = Touches(candidates[k], x1);
+  });
   return times;
 }
 

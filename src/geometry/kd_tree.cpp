@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/geometry/kd_tree.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <nanoflann.hpp>
 #include <string>
 
 #include "invsim/base/error.h"
+#include "invsim/base/threads.h"
 
 namespace invsim {
 namespace {
@@ -74,11 +72,9 @@ std::vector<Neighbour> KdTree::NearestK(const Vector3d& query, int k) const {
 
 std::vector<Neighbour> KdTree::NearestAll(const Points& queries) const {
   std::vector<Neighbour> r(queries.cols());
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, queries.cols(), 256),
-                    [&](const tbb::blocked_range<Eigen::Index>& range) {
-                      for (auto i = range.begin(); i < range.end(); ++i)
-                        r[i] = Nearest(queries.col(i));
-                    });
+  ParallelFor(static_cast<int>(queries.cols()), 256, [&](int i) {
+    r[i] = Nearest(queries.col(i));
+  });
   return r;
 }
 

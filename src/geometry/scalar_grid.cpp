@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/geometry/scalar_grid.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <unordered_map>
 
 #include "invsim/base/error.h"
+#include "invsim/base/threads.h"
 
 namespace invsim {
 namespace {
@@ -144,7 +143,7 @@ void ScalarGrid::Fill(const std::function<double(const Vector3d&)>& f,
   const double reach = kSlope * cell_ * std::sqrt(3.0) * 0.5 * kBlock + band;
   std::array<int, 3> blocks;
   for (int c = 0; c < 3; ++c) blocks[c] = (size_[c] + kBlock - 1) / kBlock;
-  tbb::parallel_for(0, blocks[0] * blocks[1] * blocks[2], [&](int b) {
+  ParallelFor(blocks[0] * blocks[1] * blocks[2], 16, [&](int b) {
     const int first[3] = {kBlock * (b % blocks[0]),
                           kBlock * (b / blocks[0] % blocks[1]),
                           kBlock * (b / (blocks[0] * blocks[1]))};
@@ -202,7 +201,7 @@ void ScalarGrid::Smooth(double sigma) {
     const int stride = axis == 0   ? 1
                        : axis == 1 ? size_[0]
                                    : size_[0] * size_[1];
-    tbb::parallel_for(0, num_nodes(), [&](int node) {
+    ParallelFor(num_nodes(), 1024, [&](int node) {
       const int at = node / stride % size_[axis];
       double smooth = 0.0;
       for (int r = -reach; r <= reach; ++r) {

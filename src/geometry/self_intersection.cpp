@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/geometry/self_intersection.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "invsim/base/threads.h"
 #include "invsim/geometry/surface_index.h"
 
 namespace invsim {
@@ -64,7 +63,7 @@ std::vector<std::array<int, 2>> SelfIntersections(const Points& vertices,
   const SurfaceIndex index(vertices, faces);
   const auto count = static_cast<int>(faces.cols());
   std::vector<std::vector<int>> partners(count);
-  tbb::parallel_for(0, count, [&](int f) {
+  ParallelFor(count, 16, [&](int f) {
     Vector3d centre = Vector3d::Zero();
     for (int c = 0; c < 3; ++c) centre += vertices.col(faces(c, f)) / 3.0;
     double radius = 0.0;

@@ -2,8 +2,6 @@
 #include "invsim/geometry/surface_index.h"
 
 #include <embree3/rtcore.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "embree_device.h"
 #include "invsim/base/error.h"
+#include "invsim/base/threads.h"
 #include "invsim/geometry/mesh.h"
 #include "invsim/geometry/topology.h"
 
@@ -281,11 +280,9 @@ std::optional<SurfacePoint> SurfaceIndex::NearestWithin(const Vector3d& query,
 std::vector<SurfacePoint> SurfaceIndex::NearestAll(
     const Points& queries) const {
   std::vector<SurfacePoint> r(queries.cols());
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, queries.cols(), 64),
-                    [&](const tbb::blocked_range<Eigen::Index>& range) {
-                      for (Eigen::Index i = range.begin(); i < range.end(); ++i)
-                        r[i] = Nearest(queries.col(i));
-                    });
+  ParallelFor(static_cast<int>(queries.cols()), 64, [&](int i) {
+    r[i] = Nearest(queries.col(i));
+  });
   return r;
 }
 

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include "geometry/shapes.h"
 #include "invsim/base/error.h"
+#include "invsim/base/threads.h"
 
 namespace invsim {
 namespace {
@@ -224,9 +223,9 @@ TEST(SurfaceIndex, ThreadsDoNotChangeResults) {
   const SurfaceIndex index(m.vertices, m.faces);
   const Points queries = RandomPoints(3000, 1.5, 8);
   const auto parallel = index.NearestAll(queries);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism,
-                                1);
+  SetThreads(1);
   const auto serial = index.NearestAll(queries);
+  SetThreads(0);
   for (size_t i = 0; i < serial.size(); ++i) {
     EXPECT_EQ(serial[i].face, parallel[i].face);
     EXPECT_EQ(serial[i].point, parallel[i].point);
@@ -237,7 +236,7 @@ TEST(SurfaceIndex, ThreadsDoNotChangeResults) {
 TEST(SurfaceIndex, UpdatesInsideAParallelLoop) {
   const TriangleMesh m = Sphere(2);
   std::vector<double> distance(16);
-  tbb::parallel_for(0, 16, [&](int i) {
+  ParallelFor(16, 1, [&](int i) {
     SurfaceIndex index(m.vertices, m.faces);
     index.Update(m.vertices * (1.0 + i));
     distance[i] = index.Nearest(Vector3d(0, 0, 100)).distance;

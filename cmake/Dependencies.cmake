@@ -4,9 +4,9 @@ set(CMAKE_FIND_PACKAGE_PREFER_CONFIG ON)
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 
 # What the layers link; who links the layers needs the same.
-set(INVSIM_DEPENDENCIES Threads Eigen3 glog TBB Ceres nlohmann_json
-                        tomlplusplus ZLIB TinyGLTF embree SparseSolvers
-                        PointClouds)
+set(INVSIM_DEPENDENCIES Threads Eigen3 glog TBB SharedCeres
+                        nlohmann_json tomlplusplus ZLIB TinyGLTF embree
+                        SparseSolvers PointClouds)
 foreach(dependency ${INVSIM_DEPENDENCIES})
   find_package(${dependency} REQUIRED)
 endforeach()
@@ -30,10 +30,10 @@ endif()
 # objects are aligned for the largest vectors there are: loops over memory
 # aligned to less begin one by one, up to where it is aligned, which changes
 # from run to run and with it the last bits. Debian's libraries align to 16
-# bytes, and with AVX Eigen brings its own allocator, so nothing of Eigen
-# crosses into a library that was built with it, and whoever links us is
-# compiled for the same instructions. Hidden symbols keep our Eigen functions from taking the
-# place of a library's own.
+# bytes and allocate otherwise, so nothing of Eigen crosses into a library that
+# was built with it, and all of those are shared: our symbols are hidden and
+# theirs are their own, so that neither's Eigen functions take the place of the
+# other's.
 add_library(invsim_flags INTERFACE)
 set_target_properties(invsim_flags PROPERTIES EXPORT_NAME flags)
 target_compile_definitions(invsim_flags INTERFACE EIGEN_MAX_ALIGN_BYTES=64)

@@ -15,6 +15,7 @@ write_basic_package_version_file(invsimConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/invsimConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/invsimConfigVersion.cmake
+              cmake/FindSharedCeres.cmake
               cmake/FindSparseSolvers.cmake
               cmake/FindPointClouds.cmake
         DESTINATION ${package_dir})

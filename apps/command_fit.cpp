@@ -250,11 +250,8 @@ FitObserver FitCommand::Observer(const FitData& data,
 
 void FitCommand::Warn(const FitReport& report, const RunFolder& folder) const {
   const FitResult& r = report.result;
-  if (!r.carry_note.empty())
-    LOG(WARNING) << "the garment was not carried to the estimated shape: "
-                 << r.carry_note;
-  if (r.relaxation && r.relaxation->status == RunStatus::kComplete &&
-      !r.relaxation->at_rest)
+  if (r.dressing.worn >= 0 &&
+      !r.dressing.tries[r.dressing.worn].relaxation->at_rest)
     LOG(WARNING) << "the cloth was not at rest on the first body";
   if (r.stats.step.missed > 0)
     LOG(WARNING) << r.stats.step.missed

@@ -349,7 +349,8 @@ Evaluation ClothPointsTerm::Evaluate(const BodySequence& x,
   for (int t = 0; t < num_frames(); ++t) {
     if (InterruptRequested()) return Evaluation::kAbandoned;
     impl_->frames[t].body = impl_->body.Pose(x.Frame(t));
-    if (!impl_->rollout.Step(t, impl_->frames[t].body->vertices()))
+    const Points& skin = impl_->frames[t].body->vertices();
+    if (!skin.allFinite() || !impl_->rollout.Step(t, skin))
       return Evaluation::kFailed;
     impl_->FindResiduals(t);
     const Stopwatch watch;

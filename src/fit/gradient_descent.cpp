@@ -148,6 +148,7 @@ OptimizerSummary GradientDescent::Run(Objective* objective,
   Point point(objective);
   summary.termination = Termination::kIterationLimit;
   summary.reason = "The iteration limit was reached.";
+  bool converged = false;
   for (int i = 0;; ++i) {
     IterationRecord record;
     record.iteration = i;
@@ -158,7 +159,9 @@ OptimizerSummary GradientDescent::Run(Objective* objective,
     record.counts = objective->counts();
     record.terms = objective->terms();
     summary.iterations.push_back(record);
-    if (observer && !observer(record)) {
+    const bool go_on = !observer || observer(record);
+    if (converged) break;
+    if (!go_on) {
       summary.termination = Termination::kInterrupted;
       summary.reason = "A stop was asked for.";
       break;
@@ -177,7 +180,7 @@ OptimizerSummary GradientDescent::Run(Objective* objective,
       summary.termination =
           s.blocked ? Termination::kStalled : Termination::kConverged;
       summary.reason = "The cost changed by less than the tolerance.";
-      break;
+      converged = true;
     }
   }
   summary.final_cost = s.cost;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/fit/sequence_fit.h"
 
+#include <algorithm>
+#include <numeric>
 #include <sstream>
 
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
 #include "invsim/base/stopwatch.h"
-#include "invsim/cloth/carry.h"
 #include "invsim/fit/fit_checkpoint.h"
 #include "invsim/fit/remembered_term.h"
 
@@ -15,6 +16,9 @@ namespace {
 
 // Points closer together than this were not measured on anybody, m.
 constexpr double kSmallestCloud = 0.01;
+
+// Frames by which ways of dressing are compared.
+constexpr size_t kJudgedFrames = 4;
 
 void CheckClouds(const std::vector<Points>& clouds) {
   if (clouds.empty()) throw InputError("points: no frame");
@@ -33,8 +37,10 @@ void CheckClouds(const std::vector<Points>& clouds) {
 }
 
 void CheckStart(const BodySequence& start, size_t frames) {
-  if (start.poses.size() != frames || start.translations.size() != frames)
-    throw InputError("the start has " + std::to_string(start.poses.size()) +
+  const size_t given = start.poses.size() != frames ? start.poses.size()
+                                                    : start.translations.size();
+  if (given != frames)
+    throw InputError("the start has " + std::to_string(given) +
                      " frames, expected one per point cloud, " +
                      std::to_string(frames));
   bool finite = start.shape.allFinite();
@@ -60,6 +66,14 @@ std::string WithCause(std::string reason,
   return reason + ": " + cause + ".";
 }
 
+// All steps of all ways tried.
+StepStats DressingSteps(const Dressing& dressing) {
+  StepStats all;
+  for (const DressingTry& tried : dressing.tries)
+    if (tried.relaxation) all.Add(tried.relaxation->stats.step);
+  return all;
+}
+
 class Fitter {
  public:
   Fitter(const FitScene& scene,
@@ -82,8 +96,10 @@ class Fitter {
   bool MayGoOn() const { return !InterruptRequested() && !TimeIsUp(); }
 
   void FindStart();
-  Garment CarriedGarment();
-  bool Dress();
+  ClothPointsTerm Term(const std::vector<Points>& clouds,
+                       const ClothReference& reference) const;
+  double StartingCost(const ClothReference& reference) const;
+  void DressStart();
   void Optimize(ClothPointsTerm* term);
   void Simulate(ClothPointsTerm* term);
   void FindUncertain(Objective* objective);
@@ -121,46 +137,48 @@ void Fitter::FindStart() {
   result_.seconds.init = watch.seconds();
 }
 
-Garment Fitter::CarriedGarment() {
-  BodyParameters from, to;
-  to.shape = result_.start.shape;
-  try {
-    Garment garment = CarryGarment(scene_.garment,
-                                   scene_.body.Vertices(from),
-                                   scene_.body.Vertices(to),
-                                   scene_.body.faces(),
-                                   "the garment");
-    result_.carried = true;
-    return garment;
-  } catch (const InputError& error) {
-    // It can still be led there while it is simulated.
-    result_.carry_note = error.what();
-    return scene_.garment;
-  }
+ClothPointsTerm Fitter::Term(const std::vector<Points>& clouds,
+                             const ClothReference& reference) const {
+  return {scene_.body,
+          scene_.simulator,
+          scene_.garment.faces,
+          VertexAreas(scene_.garment),
+          clouds,
+          scene_.frames_per_second,
+          reference,
+          options_.data};
+}
+
+// Of the first frames, from this cloth.
+double Fitter::StartingCost(const ClothReference& reference) const {
+  const auto judged = std::min<size_t>(kJudgedFrames, scene_.clouds.size());
+  ClothPointsTerm term =
+      Term({scene_.clouds.begin(), scene_.clouds.begin() + judged}, reference);
+  std::vector<double> costs;
+  if (term.Evaluate(result_.start, kNoLimit, &costs) != Evaluation::kDone)
+    return kNoLimit;
+  return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
 // Stage 2.
-bool Fitter::Dress() {
+void Fitter::DressStart() {
   const Stopwatch watch;
-  std::vector<BodyParameters> motion;
-  for (int t = 0; t < result_.start.num_frames(); ++t)
-    motion.push_back(result_.start.Frame(t));
   result_.reference = checkpoint_.LoadReference(scene_.body.num_vertices(),
                                                 scene_.garment.num_vertices());
   if (!result_.reference) result_.reference = scene_.reference;
-  if (result_.reference) return true;
-  const Garment garment = CarriedGarment();
-  RelaxationScene dressing{
-      scene_.body, garment, motion, scene_.frames_per_second};
-  if (result_.carried) dressing.garment_shape = result_.start.shape;
-  result_.relaxation = Relax(
-      dressing, options_.relaxation, scene_.simulator, observer_.relaxation);
-  result_.seconds.relaxation = watch.seconds();
-  if (result_.relaxation->status != RunStatus::kComplete) return false;
-  result_.reference = {scene_.body.Vertices(motion[0]),
-                       result_.relaxation->cloth};
-  checkpoint_.Save(*result_.reference);
-  return true;
+  if (result_.reference) return;
+  std::vector<BodyParameters> motion;
+  for (int t = 0; t < result_.start.num_frames(); ++t)
+    motion.push_back(result_.start.Frame(t));
+  result_.dressing = Dress(
+      {scene_.body, scene_.garment, motion, scene_.frames_per_second},
+      options_.relaxation,
+      scene_.simulator,
+      [this](const ClothReference& cloth) { return StartingCost(cloth); },
+      observer_.relaxation);
+  result_.reference = result_.dressing.reference;
+  if (result_.reference) checkpoint_.Save(*result_.reference);
+  result_.seconds.dressing = watch.seconds();
 }
 
 // Stage 3, and the uncertainty of stage 4.
@@ -228,10 +246,10 @@ void Fitter::Conclude() {
     result_.reason = "The garment cannot be simulated on the body found.";
     if (result_.reference)
       result_.reason = WithCause(result_.reason, result_.stats.step, 0);
-    else if (result_.relaxation)
+    else
       result_.reason =
           WithCause("The garment cannot be dressed on the first body.",
-                    result_.relaxation->stats.step,
+                    DressingSteps(result_.dressing),
                     0);
   }
   // Who stopped early was told to.
@@ -249,15 +267,9 @@ void Fitter::Conclude() {
 FitResult Fitter::Run() {
   FindStart();
   result_.body = result_.start;
-  if (!InterruptRequested() && Dress()) {
-    ClothPointsTerm term(scene_.body,
-                         scene_.simulator,
-                         scene_.garment.faces,
-                         VertexAreas(scene_.garment),
-                         scene_.clouds,
-                         scene_.frames_per_second,
-                         *result_.reference,
-                         options_.data);
+  if (!InterruptRequested()) DressStart();
+  if (result_.reference && !InterruptRequested()) {
+    ClothPointsTerm term = Term(scene_.clouds, *result_.reference);
     if (scene_.optimize && MayGoOn()) Optimize(&term);
     for (PoseVector& pose : result_.body.poses) Canonicalize(&pose);
     if (!InterruptRequested()) Simulate(&term);

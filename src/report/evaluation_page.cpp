@@ -63,7 +63,7 @@ std::string InShort(const Metrics& metrics) {
     if (const auto name = names.find(key); name != names.end())
       text +=
           (text.empty() ? "" : ", ") + name->second + " " + ShortNumber(value);
-  return text + " mm";
+  return text.empty() ? "nothing to compare" : text + " mm";
 }
 
 Chart OverFrames(const std::string& title) {

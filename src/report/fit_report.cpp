@@ -93,7 +93,7 @@ std::vector<std::pair<std::string, double>> TimeByPart(
   const FitResult& r = report.result;
   std::vector<std::pair<std::string, double>> parts = {
       {"initialisation", r.seconds.init},
-      {"relaxation", r.seconds.relaxation},
+      {"dressing", r.seconds.dressing},
       {"simulation", r.stats.simulation_seconds},
       {"sensitivity and blocks", r.stats.sensitivity_seconds},
       {"nearest neighbours", r.stats.neighbour_seconds},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -42,6 +43,23 @@ Json InputsJson(const FitReport& r) {
   json["loss"] = r.loss;
   json["threads"] = r.threads;
   return json;
+}
+
+Json DressingJson(const Dressing& dressing) {
+  Json tries = Json::array();
+  for (const DressingTry& tried : dressing.tries) {
+    Json json;
+    json["way"] = Name(tried.way);
+    json["worn"] = static_cast<int>(tries.size()) == dressing.worn;
+    if (!tried.refused.empty()) json["refused"] = tried.refused;
+    if (tried.relaxation) {
+      json["frames"] = tried.relaxation->frames;
+      json["at_rest"] = tried.relaxation->at_rest;
+    }
+    if (std::isfinite(tried.cost)) json["first_frames_cost"] = tried.cost;
+    tries.push_back(std::move(json));
+  }
+  return tries;
 }
 
 Json StepsJson(const StepStats& s) {
@@ -145,7 +163,7 @@ std::string FitJson(const FitReport& report) {
   json["cost_by_distance"] = {{"cloth_to_points", r.costs.cloth_to_points},
                               {"skin_to_points", r.costs.skin_to_points},
                               {"points_to_surface", r.costs.points_to_surface}};
-  json["garment_carried_to_shape"] = r.carried;
+  json["dressing"] = DressingJson(r.dressing);
   json["simulation"] = StepsJson(r.stats.step);
   json["simulation"]["neighbour_queries"] = r.stats.neighbour_queries;
   const FrameStats last = Simulated(report);

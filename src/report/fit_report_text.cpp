@@ -58,6 +58,18 @@ void InputText(const FitReport& r, std::ostream* out) {
       .Add("threads", std::to_string(r.threads));
 }
 
+std::string DressingText(const DressingTry& tried) {
+  if (!tried.refused.empty()) return tried.refused;
+  const RelaxationResult& r = *tried.relaxation;
+  const std::string frames = std::to_string(r.frames) + " frames";
+  if (r.status == RunStatus::kFailed)
+    return "failed after " + frames +
+           "; failed steps: " + FailedSteps(r.stats.step);
+  return frames + ", " + (r.at_rest ? "at rest" : "not at rest") +
+         " (mean speed " + ShortNumber(100 * r.rest_speed) +
+         " cm/s), first frames cost " + ShortNumber(tried.cost);
+}
+
 void StartText(const FitResult& r, std::ostream* out) {
   *out << "\nInitialisation\n";
   Lines lines(out);
@@ -67,20 +79,10 @@ void StartText(const FitResult& r, std::ostream* out) {
   } else {
     lines.Add("body", "as given, or found in the checkpoint");
   }
-  if (r.carried) lines.Add("garment", "carried to the estimated shape");
-  if (!r.carry_note.empty())
-    lines.Add("garment", "not carried to the estimated shape: " + r.carry_note);
-  if (r.relaxation && r.relaxation->status == RunStatus::kFailed)
-    lines.Add(
-        "relaxation",
-        "failed after " + std::to_string(r.relaxation->frames) +
-            " frames; failed steps: " + FailedSteps(r.relaxation->stats.step));
-  else if (r.relaxation)
-    lines.Add("relaxation",
-              std::to_string(r.relaxation->frames) + " frames, " +
-                  (r.relaxation->at_rest ? "at rest" : "not at rest") +
-                  " (mean speed " +
-                  ShortNumber(100 * r.relaxation->rest_speed) + " cm/s)");
+  for (const DressingTry& tried : r.dressing.tries)
+    lines.Add(std::string("garment ") + Name(tried.way), DressingText(tried));
+  if (r.dressing.worn >= 0 && r.dressing.tries.size() > 1)
+    lines.Add("worn", Name(r.dressing.tries[r.dressing.worn].way));
 }
 
 void OptimizerText(const FitReport& report, std::ostream* out) {

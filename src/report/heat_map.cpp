@@ -48,6 +48,16 @@ std::string Css(const Rgb& color) {
   return text;
 }
 
+// Whole from 10 on, two figures below.
+std::string InCell(double value) {
+  char text[32];
+  if (std::abs(value) >= 9.95)
+    std::snprintf(text, sizeof(text), "%.0f", value);
+  else
+    std::snprintf(text, sizeof(text), "%.2g", value);
+  return text;
+}
+
 bool Drawn(double value) { return std::isfinite(value) && value > 0; }
 
 class MapDrawing {
@@ -119,7 +129,7 @@ class MapDrawing {
     Text(x + kCellWidth / 2,
          y + (mark.empty() ? 21 : 14),
          "middle",
-         std::isfinite(value) ? ShortNumber(std::round(value)) : "",
+         std::isfinite(value) ? InCell(value) : "",
          dark ? "fill=\"#fff\"" : "fill=\"#222\"");
     if (mark.empty()) return;
     const double w = 8 + 9 * static_cast<double>(mark.size());
@@ -167,8 +177,7 @@ class MapDrawing {
       Text(x + 22,
            bottom_ - share * (bottom_ - kMapTop) + 4,
            "start",
-           ShortNumber(value < 10 ? std::round(10 * value) / 10
-                                  : std::round(value)),
+           InCell(value),
            "");
     }
     std::ostringstream turn;

@@ -241,10 +241,13 @@ TEST_F(ClothPoints, DependsOnThePointAlone) {
 }
 
 TEST_F(ClothPoints, FailsWhereTheBodyIsNotFinite) {
-  ClothPointsTerm term = MakeTerm(kFrames);
-  start_.translations[1][0] = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> costs;
-  EXPECT_EQ(term.Evaluate(start_, kNoLimit, &costs), Evaluation::kFailed);
+  for (const int frame : {0, 1}) {
+    ClothPointsTerm term = MakeTerm(kFrames);
+    BodySequence x = start_;
+    x.translations[frame][0] = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> costs;
+    EXPECT_EQ(term.Evaluate(x, kNoLimit, &costs), Evaluation::kFailed);
+  }
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 // From point clouds to the body under the clothes and the moving garment.
 //
 //   1. A first body for every frame, from the points alone (body_init.h).
-//   2. The garment is carried to the estimated shape (cloth/carry.h) and led
-//      to rest on the body of frame 0 (sim/relaxation.h).
+//   2. The garment is put on the body of frame 0 and comes to rest there
+//      (dressing.h).
 //   3. Inverse simulation: an optimiser moves shape, poses and translations
 //      until the simulated, clothed body meets the points (objective.h,
 //      cloth_points_term.h; the paper's eq. 5).
@@ -26,6 +26,7 @@
 
 #include "invsim/fit/body_init.h"
 #include "invsim/fit/cloth_points_term.h"
+#include "invsim/fit/dressing.h"
 #include "invsim/fit/optimizer.h"
 #include "invsim/fit/uncertainty.h"
 #include "invsim/sim/relaxation.h"
@@ -81,10 +82,10 @@ struct FitObserver {
 };
 
 struct FitSeconds {
-  double init = 0, relaxation = 0, optimization = 0, final_simulation = 0,
+  double init = 0, dressing = 0, optimization = 0, final_simulation = 0,
          uncertainty = 0;
   double total() const {
-    return init + relaxation + optimization + final_simulation + uncertainty;
+    return init + dressing + optimization + final_simulation + uncertainty;
   }
 };
 
@@ -100,9 +101,7 @@ struct FitResult {
   std::optional<ClothReference> reference;
   BodySequence body;
   std::optional<BodyInit> init;
-  bool carried = false;    // the garment, to the shape of `start`
-  std::string carry_note;  // why not
-  std::optional<RelaxationResult> relaxation;
+  Dressing dressing;  // nothing tried if a reference was given or kept
   std::optional<OptimizerSummary> optimizer;
   ClothPointsCosts costs;  // at `body`
   ClothPointsStats stats;  // of stages 3 and 4

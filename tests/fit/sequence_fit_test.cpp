@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "invsim/fit/sequence_fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+#include "invsim/base/error.h"
+#include "invsim/sim/scene.h"
+#include "sim/test_scene.h"
+
+namespace invsim {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+// A ball under a sheet, three times measured, that stands where it was made.
+class SequenceFitTest : public ::testing::Test {
+ protected:
+  SequenceFitTest()
+      : body_(BallBody()),
+        garment_(SheetAboveBall(4, 0.2)),
+        clouds_(3, garment_.placed) {
+    for (size_t t = 0; t < clouds_.size(); ++t) start_.Append({});
+  }
+
+  FitResult Fit(bool optimize = false) const {
+    SceneOptions options;
+    options.step.substeps = 1;
+    Simulator simulator(MakeSetup(options, body_, garment_, PlainCloth()));
+    FitScene scene{body_, garment_, &simulator, clouds_, 30.0, start_};
+    scene.reference = ClothReference{
+        body_.Vertices({}),
+        {garment_.placed, Points::Zero(3, garment_.num_vertices())}};
+    scene.optimize = optimize;
+    return FitSequence(scene, {}, observer_);
+  }
+  void ExpectRefused(const std::string& message) const {
+    EXPECT_THAT([&] { Fit(); }, ThrowsMessage<InputError>(message));
+  }
+
+  BodyModel body_;
+  Garment garment_;
+  std::vector<Points> clouds_;
+  BodySequence start_;
+  FitObserver observer_;
+};
+
+TEST_F(SequenceFitTest, RefusesPointsThatCannotBeAPersonsByTheirFrame) {
+  const std::vector<Points> good = clouds_;
+  clouds_.clear();
+  ExpectRefused("points: no frame");
+  clouds_ = good;
+  clouds_[1].resize(3, 0);
+  ExpectRefused("points of frame 1: none");
+  clouds_ = good;
+  for (const double bad :
+       {kNotANumber, std::numeric_limits<double>::infinity()}) {
+    clouds_[2](1, 7) = bad;
+    ExpectRefused("points of frame 2: not all finite");
+  }
+  // Wherever they are: far from the origin, too.
+  clouds_ = good;
+  clouds_[0] = 0.03 * clouds_[0];
+  clouds_[0].colwise() += Vector3d(1, 2, 3);
+  ExpectRefused("points of frame 0: all 25 within 6 mm; expected a person's");
+  clouds_[0] = 0.06 * good[0];
+  EXPECT_NO_THROW(Fit());
+}
+
+TEST_F(SequenceFitTest, RefusesAStartOfOtherFramesThanThePoints) {
+  const std::string message = " frames, expected one per point cloud, 3";
+  start_.Append({});
+  ExpectRefused("the start has 4" + message);
+  start_.poses.resize(2);
+  start_.translations.resize(2);
+  ExpectRefused("the start has 2" + message);
+}
+
+TEST_F(SequenceFitTest, RefusesAStartThatIsNotFiniteAnywhere) {
+  const BodySequence good = start_;
+  start_.shape[9] = kNotANumber;
+  ExpectRefused("the start is not finite");
+  start_ = good;
+  start_.poses[2][71] = kNotANumber;
+  ExpectRefused("the start is not finite");
+  start_ = good;
+  start_.translations[2][2] = -std::numeric_limits<double>::infinity();
+  ExpectRefused("the start is not finite");
+}
+
+// What comes out is the start, as rotations that are no longer than half a
+// turn, and the cloth on it.
+TEST_F(SequenceFitTest, WithoutOptimisationTheStartIsDressed) {
+  for (PoseVector& pose : start_.poses) pose[1] = 2 * std::numbers::pi + 0.1;
+  std::vector<int> frames;
+  observer_.frame = [&](const SimulatedFrame& f) { frames.push_back(f.frame); };
+  const FitResult result = Fit();
+  EXPECT_EQ(result.termination, Termination::kConverged);
+  EXPECT_TRUE(result.usable());
+  EXPECT_FALSE(result.optimizer);
+  EXPECT_THAT(frames, ElementsAre(0, 1, 2));
+  EXPECT_EQ(result.start.poses, start_.poses);
+  EXPECT_NEAR(result.body.poses[2][1], 0.1, 1e-12);
+  EXPECT_EQ(result.body.translations, start_.translations);
+}
+
+// Asked to stop after the start was evaluated, it still dresses what it has.
+TEST_F(SequenceFitTest, WhatIsStoppedEarlyIsUsable) {
+  int iterations = 0;
+  observer_.iteration = [&](const FitIteration& i) {
+    EXPECT_GT(i.steps, 0);
+    ++iterations;
+    return false;
+  };
+  const FitResult result = Fit(true);
+  EXPECT_EQ(iterations, 1);
+  EXPECT_EQ(result.termination, Termination::kInterrupted);
+  EXPECT_TRUE(result.usable());
+  EXPECT_EQ(result.body.translations, start_.translations);
+}
+
+// So far away that no number is left of the cloth.
+TEST_F(SequenceFitTest, SaysWhyTheGarmentCannotBeSimulated) {
+  for (Vector3d& t : start_.translations) t.setConstant(1e200);
+  const FitResult result = Fit();
+  EXPECT_EQ(result.termination, Termination::kFailed);
+  EXPECT_FALSE(result.usable());
+  EXPECT_THAT(
+      result.reason,
+      StartsWith("The garment cannot be simulated on the body found: "));
+}
+
+}  // namespace
+}  // namespace invsim

@@ -48,9 +48,9 @@ TEST(Uncertainty, IsThatOfIndependentMeasurements) {
   Objective objective(priors, {}, &term, &x);
   const Uncertainty u = FindUncertainty(priors, &objective);
   ASSERT_EQ(u.failure, "");
-  // Both frames measure the shape; its prior is N(0, 1).
+  // Both frames measure the shape.
   for (const double d : u.shape_deviation)
-    EXPECT_NEAR(d, 1 / std::sqrt(2 * 400 + 1), 1e-12);
+    EXPECT_NEAR(d, 1 / std::sqrt(2 * 400 + priors.shape), 1e-12);
   ASSERT_EQ(u.pose_deviation.size(), 2u);
   PosePriorVector slope;
   PosePrior(x.poses[0], &slope);
@@ -76,7 +76,7 @@ TEST(Uncertainty, NamesWhatTheDataLeaveOpen) {
   ASSERT_EQ(u.failure, "");
   EXPECT_EQ(u.undetermined_directions, 1);
   EXPECT_NEAR(std::abs(u.shape_directions(4, 0)), 1, 1e-9);
-  EXPECT_NEAR(u.direction_deviation[0], 1, 1e-9);
+  EXPECT_NEAR(u.direction_deviation[0], 1 / std::sqrt(priors.shape), 1e-9);
   for (int j = 1; j < kNumJoints; ++j)
     EXPECT_NEAR(u.undetermined_joints[j], j == 15 ? 1 : 0, 1e-9) << j;
 }

@@ -10,7 +10,9 @@
 //                pelvis: the second difference of t. The paper's Laplacian
 //                (its L_t), but of rotations: a vector that wraps costs
 //                nothing.
-//   shape        |beta|^2: a body model's coefficients are N(0, 1).
+//   shape        |beta|^2: a body model's coefficients are N(0, 1). Its weight
+//                  is that of many frames, for what hides the shape, cloth that
+//                  lies otherwise than simulated, hides it alike in all.
 //   pose         limits of the joints and their usual range (table in
 //                pose_prior.cpp), so that limbs which few points see do not
 //                fold.
@@ -29,7 +31,7 @@ struct PriorOptions {
   // Usual second differences, one standard deviation, per frame squared.
   double turn = 0.03;   // rad
   double shift = 0.01;  // m
-  double shape = 1;
+  double shape = 100;
   double pose = 1;
   double overlap = 0;
   double depth = 0.01;  // m, the overlap's standard deviation

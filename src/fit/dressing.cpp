@@ -31,6 +31,8 @@ Dressing Dress(const RelaxationScene& scene,
                const RelaxationCallback& on_frame) {
   Dressing dressing;
   for (const DressingWay way : {DressingWay::kCarried, DressingWay::kGrown}) {
+    // Neither carried nor grown: the first way was both.
+    if (dressing.reference && scene.motion.front().shape.isZero(0)) break;
     DressingTry& tried = dressing.tries.emplace_back();
     tried.way = way;
     Garment garment = scene.garment;

@@ -92,6 +92,13 @@ TEST_F(DressingTest, TakesWhatCanGoOn) {
   EXPECT_EQ(DressBy([&](const ClothReference&) { return infinite; }).worn, 0);
 }
 
+TEST_F(DressingTest, OfTheShapeTheGarmentWasMadeForIsTriedOnce) {
+  motion_[0].shape.setZero();
+  const Dressing dressing = DressBy([](const ClothReference&) { return 1.0; });
+  EXPECT_EQ(dressing.tries.size(), 1u);
+  EXPECT_EQ(dressing.worn, 0);
+}
+
 TEST_F(DressingTest, StopsWhenInterrupted) {
   const InterruptedTest guard;
   const Dressing dressing = DressBy([](const ClothReference&) {

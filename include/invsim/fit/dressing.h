@@ -14,7 +14,7 @@
 //   grown    it is led to the pose as it is, while the body takes on its shape
 //
 // (sim/relaxation.h), and the one whose cloth is nearer to what was measured
-// is worn.
+// is worn. On a body of shape zero both are the same, and one is tried.
 
 #include <functional>
 #include <limits>

@@ -8,6 +8,9 @@
 namespace invsim {
 namespace {
 
+// A force is on the friction cone up to rounding.
+constexpr double kOnCone = 1e-9;
+
 Matrix3d Outer(const Vector3d& a, const Vector3d& b) {
   return a * b.transpose();
 }
@@ -127,6 +130,14 @@ Vector3d CompliantForce(const Vector3d& n,
                         double d,
                         const Vector3d& q) {
   return CompliantForce(n, mu, d, d, q);
+}
+
+ContactMode ModeOf(const Vector3d& n, double mu, const Vector3d& r) {
+  const double normal = n.dot(r);
+  if (normal <= 0) return ContactMode::kOpen;
+  const double tangent = (r - normal * n).norm();
+  return tangent < mu * normal * (1 - kOnCone) ? ContactMode::kStick
+                                               : ContactMode::kSlide;
 }
 
 CompliantDerivative DifferentiateCompliantForce(const Vector3d& n,

@@ -13,48 +13,26 @@
 #include "invsim/base/stopwatch.h"
 #include "invsim/contact/contact_pattern.h"
 #include "invsim/contact/friction_jacobian.h"
+#include "settling.h"
+#include "splitting_rho.h"
 
 namespace invsim {
 namespace {
 
 // Newton has stagnated if its residual did not halve in so many iterations.
 constexpr int kPatience = 3;
-// rho, along the normal and across it, in units of a vertex's own diagonal of A
-// there. The membrane ties neighbours together across the normal, so that a
-// vertex is far softer there than its own diagonal says.
-constexpr double kRhoNormal = 0.5;
-constexpr double kRhoTangent = 0.05;
-// What cycles with one rho may settle with another: its share of the above in
+// What cycles with one rho may settle with another: the share of its guess in
 // the first attempt and each retry.
 constexpr double kRhoOfAttempt[] = {1, 0.1, 10, 0.01};
 // Refinement goes on while a step leaves less than this of the residual.
 constexpr double kRefinement = 0.1;
 // A factor that leaves more of an error than this at every turn is too coarse.
 constexpr double kCoarse = 0.3;
+// Fitting rho to the modes and factorising anew costs as much as some tens of
+// iterations; it is done if more than these are yet to come.
+constexpr double kFit = 30;
 // Differences that the acceleration of splitting remembers.
 constexpr int kMemory = 15;
-
-// The matrix normal n n^T + tangent (1 - n n^T).
-struct Scaling {
-  Vector3d n;
-  double normal, tangent;
-
-  Scaling Power(double p) const {
-    return {n, std::pow(normal, p), std::pow(tangent, p)};
-  }
-  Vector3d operator*(const Vector3d& x) const {
-    return tangent * x + (normal - tangent) * n.dot(x) * n;
-  }
-  Matrix3d matrix() const {
-    return tangent * Matrix3d::Identity() +
-           (normal - tangent) * n * n.transpose();
-  }
-};
-
-// Of splitting, at one contact: rho, its inverse, its root and that's inverse.
-struct SplittingScale {
-  Scaling rho, inverse, root, inverse_root;
-};
 
 }  // namespace
 
@@ -70,6 +48,7 @@ struct FrictionSolver::Impl {
   void Precondition(VectorXd* z);
   void StartSplitting();
   void SplittingStep();
+  bool FitRho();
   bool Refine();
   bool Split(int iterations);
   double Evaluate();
@@ -99,7 +78,10 @@ struct FrictionSolver::Impl {
   // Per contact: the vertex's own diagonal of A (with compliance), in which
   // velocities are turned into forces, and splitting's rho.
   std::vector<double> delassus_inverse;
-  std::vector<SplittingScale> scale;
+  std::vector<SplittingRho> scale;
+  // Of splitting: each contact's force by the law, and what mode that is.
+  std::vector<Vector3d> lawful;
+  std::vector<ContactMode> modes;
   std::vector<int> exact_on;  // per vertex: its exact contact, or -1
 
   // At the current v: A v and g = A v - b - compliant forces.
@@ -130,24 +112,15 @@ void FrictionSolver::Impl::Prepare(double rho_share) {
   if (pattern.Cover(contacts)) UsePattern();
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
-    double mean = c.compliance, normal = c.compliance, tangent = c.compliance;
-    for (int j = 0; j < c.num_vertices; ++j) {
-      const Matrix3d own = problem.a->diagonal(c.vertex[j]);
-      const double along = c.normal.dot(own * c.normal);
-      const double square = c.weight[j] * c.weight[j];
-      mean += square * 3 / own.trace();
-      normal += square / along;
-      tangent += square * 2 / (own.trace() - along);
-    }
-    delassus_inverse[k] = 1 / mean;
-    const Scaling rho{c.normal,
-                      rho_share * kRhoNormal / normal,
-                      rho_share * kRhoTangent / tangent};
-    scale[k] = {rho, rho.Power(-1), rho.Power(0.5), rho.Power(-0.5)};
+    const OwnCompliance own = ComplianceAlone(*problem.a, c);
+    delassus_inverse[k] = 1 / own.mean;
+    scale[k] = SplittingRho(GuessedRho(c, own, rho_share));
     if (c.exact()) exact_on[c.vertex[0]] = static_cast<int>(k);
   }
   exact.resize(contacts.size());
   compliant.resize(contacts.size());
+  lawful.resize(contacts.size());
+  modes.resize(contacts.size());
 }
 
 bool FrictionSolver::Impl::Factor() {
@@ -230,14 +203,16 @@ void FrictionSolver::Impl::SplittingStep() {
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     const Vector3d at = scale[k].inverse_root * q.segment<3>(3 * k);
+    const bool pin = c.kind == ContactKind::kPin;
     const Vector3d r =
-        c.kind == ContactKind::kPin
-            ? Vector3d(-(scale[k].rho * at))
+        pin ? Vector3d(-(scale[k].rho * at))
             : CompliantForce(c.normal,
                              c.friction,
                              scale[k].inverse.normal + c.compliance,
                              scale[k].inverse.tangent + c.compliance,
                              at);
+    lawful[k] = r;
+    modes[k] = pin ? ContactMode::kStick : ModeOf(c.normal, c.friction, r);
     const Vector3d z = at + scale[k].inverse * r;
     c.Scatter(scale[k].rho * (z + c.velocity - c.Gather(v)) + r, &correction);
     image.segment<3>(3 * k) =
@@ -248,6 +223,22 @@ void FrictionSolver::Impl::SplittingStep() {
   for (size_t k = 0; k < contacts.size(); ++k)
     image.segment<3>(3 * k) += scale[k].root * contacts[k].Gather(v);
   ++stats.admm_iterations;
+}
+
+// Splitting goes on from where it is, with the rho of the modes it came to.
+bool FrictionSolver::Impl::FitRho() {
+  const auto& contacts = *problem.contacts;
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    scale[k] = SplittingRho(FittedRho(
+        c, scale[k].rho, modes[k], lawful[k], c.Gather(v) - c.velocity));
+  }
+  if (!Factor()) {  // what splitting came to stands
+    stats.factorization_failed = false;
+    return false;
+  }
+  StartSplitting();
+  return true;
 }
 
 // Without contact a step is one of plain refinement: on to the last digit.
@@ -269,6 +260,8 @@ bool FrictionSolver::Impl::Refine() {
 bool FrictionSolver::Impl::Split(int iterations) {
   VectorXd best = v;
   double least = std::numeric_limits<double>::infinity();
+  Settling settling;
+  bool fitted = false;
   StartSplitting();
   av = *problem.a * v;
   for (int it = 0; it < iterations; ++it) {
@@ -280,7 +273,14 @@ bool FrictionSolver::Impl::Split(int iterations) {
       least = stats.residual;
       best = v;
     }
-    anderson.Next(image, &q);
+    settling.Add(stats.residual, modes);
+    if (!fitted && settling.ModesRest() &&
+        settling.IterationsLeft(options.tolerance) > kFit) {
+      fitted = true;
+      if (!FitRho()) break;
+    } else {
+      anderson.Next(image, &q);
+    }
   }
   v = best;
   return false;

@@ -158,6 +158,17 @@ TEST_F(CoulombTest, NormalDerivativeFollowsSolutions) {
   }
 }
 
+TEST_F(CoulombTest, ModeOfAForceIsThatOfTheSolution) {
+  for (int trial = 0; trial < 100; ++trial)
+    for (ContactMode mode : kModes) {
+      const Vector3d n = Normal();
+      EXPECT_EQ(ModeOf(n, 0.3, Solution(mode, n, 0.3).r), mode);
+    }
+  // Without friction nothing sticks.
+  EXPECT_EQ(ModeOf(Vector3d::UnitY(), 0, Vector3d::UnitY()),
+            ContactMode::kSlide);
+}
+
 TEST_F(CoulombTest, CompliantForceSatisfiesTheLaw) {
   for (double mu : {0.0, 0.3, 2.0}) {
     for (int k = 0; k < 50; ++k) {

@@ -62,7 +62,10 @@ Vector3d CompliantForce(const Vector3d& n,
 Vector3d CompliantForce(
     const Vector3d& n, double mu, double d_n, double d_t, const Vector3d& q);
 
-// Its derivatives with respect to q and to n.
+// The mode of a force that obeys the law.
+ContactMode ModeOf(const Vector3d& n, double mu, const Vector3d& r);
+
+// The derivatives of the first with respect to q and to n.
 struct CompliantDerivative {
   ContactMode mode;
   Matrix3d dq;

@@ -10,12 +10,15 @@
 // On a vertex with one exact contact r is eliminated, r = (A v - b) there, so
 // no contact unknown enters the matrix.
 //
-// Method. P = A + sum rho_i G_i^T G_i is factorised once, in single precision,
-// rho_i a part of the vertex's own diagonal of A along the normal and across
-// it. Douglas-Rachford splitting
-// (ADMM) with P and closed-form local Coulomb projections, under Anderson
-// acceleration, converges to the solution: one factorisation and some tens of
-// single solves. If it does not within its share of iterations, semismooth
+// Method. P = A + sum rho_i G_i^T G_i is factorised in single precision, rho_i
+// a part of the vertex's own diagonal of A along the normal and across it.
+// Douglas-Rachford splitting (ADMM) with P and closed-form local Coulomb
+// projections, under Anderson acceleration, converges to the solution: one
+// factorisation and some tens of single solves. What the contacts do is known
+// long before their forces are; if it would still take many iterations then,
+// rho is fitted to it (what is closed firm, what slides as stiff as friction
+// is) and P factorised once more. If splitting does not converge within its
+// share of iterations, semismooth
 // Newton on the Alart-Curnier form goes on from the best iterate: its Jacobian
 // is factorised once, and while few contacts change their mode GMRES with that
 // factor solves the later iterations. If Newton stagnates (it may cycle between

@@ -16,7 +16,7 @@ constexpr double kPlotLeft = 70, kPlotRight = 700, kPlotTop = 30,
 constexpr char kFront[] = "#0072b2";
 constexpr char kDominated[] = "#aaaaaa";
 
-// A logarithmic axis.
+// A logarithmic axis. Zero, which it cannot hold, is drawn at its lower end.
 class Axis {
  public:
   Axis(double from, double to) : from_(from), to_(to) {}
@@ -33,6 +33,7 @@ class Axis {
     high_ *= room;
   }
   double At(double value) const {
+    if (!(value > 0)) return from_;
     const double share = std::log(value / low_) / std::log(high_ / low_);
     return from_ + (to_ - from_) * share;
   }
@@ -118,7 +119,7 @@ class SweepDrawing {
 
  private:
   static bool Drawable(const SweepResult& r) {
-    return r.usable && r.error > 0 && r.cost.median > 0;
+    return r.usable && r.error >= 0 && r.cost.median > 0;
   }
 
   void Text(double x, double y, const char* anchor, const std::string& text) {

@@ -140,6 +140,17 @@ TEST(SweepChart, ASingleResultStandsInTheMiddle) {
   EXPECT_EQ(chart.Front().size(), 1u);
 }
 
+// The setting that others are held against has none.
+TEST(SweepChart, NoErrorIsAtTheLowerEdge) {
+  const DrawnSweep chart({ResultOf("exact", 0, {8, 8, 8}),
+                          ResultOf("good", 0.1, {4, 4, 4}),
+                          ResultOf("poor", 1, {2, 2, 2})});
+  EXPECT_NEAR(chart.Circle("exact").y(), 370, kPixel);
+  EXPECT_LT(chart.Circle("good").y(), 370);
+  EXPECT_EQ(chart.Front().size(), 3u);
+  EXPECT_THAT(chart.svg(), HasSubstr("error_mm 0\n"));
+}
+
 TEST(SweepChart, HoveringShowsWhatItIsAndCosts) {
   const DrawnSweep chart({ResultOf("a<b", 2.5, {40, 30, 50})});
   EXPECT_THAT(chart.svg(),

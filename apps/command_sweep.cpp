@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr char kSweepOut[] = "invsim_sweep";
 constexpr char kClothRms[] = "cloth_rms_mm";
+constexpr char kClothSurface[] = "cloth_surface_mm";
 constexpr char kBodyError[] = "body_v2v_mean_mm";
 constexpr char kCpuPerSecond[] = "cpu_per_simulated_second";
 constexpr char kWall[] = "wall_seconds";
@@ -112,11 +114,13 @@ std::vector<std::pair<std::string, double>> SweepCommand::Compare(
   if (!plan_.has_reference) return {};
   const ClothDifference d =
       CompareClothFolders(folder, runs.At(plan_.reference, 0).folder());
+  if (!d.vertex_by_vertex()) return {{kClothSurface, d.mean_surface_mm()}};
   if (result->frame_errors_mm.empty()) result->frame_errors_mm = d.rms_mm;
   return {{kClothRms, d.total_rms_mm()},
           {"cloth_last_frame_rms_mm", d.rms_mm.back()},
           {"cloth_mean_mm", d.mean_mm},
-          {"cloth_max_mm", d.max_mm}};
+          {"cloth_max_mm", d.max_mm},
+          {kClothSurface, d.mean_surface_mm()}};
 }
 
 // Of every repeat: rounding alone may lead two runs apart.
@@ -171,6 +175,15 @@ void SweepCommand::UseErrorAndCost(SweepReport* report) const {
   MarkPareto(&report->results);
 }
 
+// Whether every run could be held against the reference vertex by vertex.
+bool SameMesh(const SweepReport& report) {
+  return std::ranges::all_of(report.results, [](const SweepResult& r) {
+    return !r.usable || std::ranges::any_of(r.values, [](const auto& value) {
+      return value.first == kClothRms;
+    });
+  });
+}
+
 SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
   SweepReport report;
   report.command = options_.command;
@@ -178,9 +191,6 @@ SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
   report.repeats = options_.repeats;
   report.held_against =
       options_.truth.empty() ? "the reference run" : options_.truth;
-  report.error_key = options_.error;
-  if (report.error_key.empty())
-    report.error_key = options_.truth.empty() ? kClothRms : kBodyError;
   report.cost_key = options_.cost;
   if (report.cost_key.empty())
     report.cost_key = options_.command == "fit" ? kWall : kCpuPerSecond;
@@ -192,6 +202,11 @@ SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
     if (r.usable) Measure(runs, truth ? &*truth : nullptr, &r);
     report.results.push_back(std::move(r));
   }
+  report.error_key = options_.error;
+  if (report.error_key.empty())
+    report.error_key = !options_.truth.empty() ? kBodyError
+                       : SameMesh(report)      ? kClothRms
+                                               : kClothSurface;
   UseErrorAndCost(&report);
   return report;
 }

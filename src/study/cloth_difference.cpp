@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "invsim/base/error.h"
+#include "invsim/geometry/chamfer.h"
 #include "invsim/io/ply.h"
 #include "invsim/io/point_sequence.h"
 
@@ -18,7 +20,25 @@ PointSequence Frames(const std::string& run) {
   return ScanPointSequence((std::filesystem::path(run) / "cloth").string());
 }
 
+PlyMesh Cloth(const std::string& file) {
+  PlyMesh mesh = ReadPly(file);
+  if (mesh.faces.cols() == 0)
+    throw InputError(file + ": no faces, expected a garment");
+  return mesh;
+}
+
+double SurfaceDistance(const PlyMesh& a, const PlyMesh& b) {
+  const SurfaceIndex of_a(a.vertices, a.faces), of_b(b.vertices, b.faces);
+  return 0.5 * (DistancesToSurface(a.vertices, of_b).mean() +
+                DistancesToSurface(b.vertices, of_a).mean());
+}
+
 }  // namespace
+
+double ClothDifference::mean_surface_mm() const {
+  return std::accumulate(surface_mm.begin(), surface_mm.end(), 0.0) /
+         static_cast<double>(surface_mm.size());
+}
 
 double ClothDifference::total_rms_mm() const {
   double sum = 0;
@@ -36,13 +56,11 @@ ClothDifference CompareClothFolders(const std::string& run,
   ClothDifference d;
   double sum = 0;
   for (size_t t = 0; t < a.files.size(); ++t) {
-    const Points x = ReadPly(a.files[t]).vertices;
-    const Points y = ReadPly(b.files[t]).vertices;
-    if (x.cols() != y.cols())
-      throw InputError(a.files[t] + ": " + std::to_string(x.cols()) +
-                       " vertices, expected " + std::to_string(y.cols()) +
-                       " as in " + b.files[t]);
-    const VectorXd distance = kMillimetres * (x - y).colwise().norm();
+    const PlyMesh x = Cloth(a.files[t]), y = Cloth(b.files[t]);
+    d.surface_mm.push_back(kMillimetres * SurfaceDistance(x, y));
+    if (x.vertices.cols() != y.vertices.cols()) continue;
+    const VectorXd distance =
+        kMillimetres * (x.vertices - y.vertices).colwise().norm();
     d.rms_mm.push_back(std::sqrt(distance.squaredNorm() /
                                  static_cast<double>(distance.size())));
     sum += distance.mean();

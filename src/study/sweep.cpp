@@ -111,7 +111,8 @@ void Describe(OptionTable* table, SweepOptions* o) {
   table->Add("error",
              &o->error,
              {.doc = "key of the results that counts as error; \"\": "
-                     "cloth_rms_mm, with a truth body_v2v_mean_mm"});
+                     "cloth_rms_mm, or cloth_surface_mm where meshes "
+                     "differ; with a truth body_v2v_mean_mm"});
   table->Add("cost",
              &o->cost,
              {.doc = "key of the results that counts as cost; \"\": "

@@ -26,7 +26,7 @@ class ClothDifferenceTest : public ::testing::Test {
   std::string Run(const std::string& name) const {
     return (directory_ / name).string();
   }
-  // Two vertices a frame, at these heights in metres.
+  // A right triangle a frame, two of its corners at these heights in metres.
   void Write(const std::string& name,
              int frame,
              double first,
@@ -35,8 +35,12 @@ class ClothDifferenceTest : public ::testing::Test {
     char file[32];
     std::snprintf(file, sizeof(file), "%06d.ply", frame);
     PlyMesh mesh;
-    mesh.vertices = Points::Zero(3, 2);
-    mesh.vertices.row(1) << first, second;
+    mesh.vertices = Points::Zero(3, 3);
+    mesh.vertices.row(0) << 0, 1, 0;
+    mesh.vertices.row(1) << first, second, 0;
+    mesh.vertices.row(2) << 0, 0, 1;
+    mesh.faces.resize(3, 1);
+    mesh.faces << 0, 1, 2;
     WritePly((directory_ / name / "cloth" / file).string(), mesh);
   }
 
@@ -50,10 +54,34 @@ TEST_F(ClothDifferenceTest, OfKnownDistances) {
   const ClothDifference d = CompareClothFolders(Run("run"), Run("reference"));
   ASSERT_EQ(d.rms_mm.size(), 2u);
   EXPECT_EQ(d.rms_mm[0], 0);
-  EXPECT_NEAR(d.rms_mm[1], std::sqrt(12.5), 1e-5);
-  EXPECT_NEAR(d.total_rms_mm(), 2.5, 1e-5);
-  EXPECT_NEAR(d.mean_mm, 3.5 / 2, 1e-5);
+  EXPECT_NEAR(d.rms_mm[1], std::sqrt(25 / 3.0), 1e-5);
+  EXPECT_NEAR(d.total_rms_mm(), std::sqrt(25 / 6.0), 1e-5);
+  EXPECT_NEAR(d.mean_mm, 7 / 6.0, 1e-5);
   EXPECT_NEAR(d.max_mm, 4, 1e-5);
+  EXPECT_EQ(d.surface_mm[0], 0);
+}
+
+// A square of two triangles, and the same of four, 2 mm above it: no vertex
+// belongs to another, but the surfaces are 2 mm apart.
+TEST_F(ClothDifferenceTest, OfOtherMeshesIsThatOfTheirSurfaces) {
+  fs::create_directories(directory_ / "coarse/cloth");
+  fs::create_directories(directory_ / "fine/cloth");
+  PlyMesh coarse, fine;
+  coarse.vertices.resize(3, 4);
+  coarse.vertices << 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1;
+  coarse.faces.resize(3, 2);
+  coarse.faces << 0, 0, 1, 2, 2, 3;
+  fine.vertices.resize(3, 5);
+  fine.vertices << coarse.vertices, Vector3d(0.5, 0, 0.5);
+  fine.vertices.row(1).setConstant(0.002);
+  fine.faces.resize(3, 4);
+  fine.faces << 0, 1, 2, 3, 1, 2, 3, 0, 4, 4, 4, 4;
+  WritePly(Run("coarse/cloth/000000.ply"), coarse);
+  WritePly(Run("fine/cloth/000000.ply"), fine);
+  const ClothDifference d = CompareClothFolders(Run("fine"), Run("coarse"));
+  EXPECT_FALSE(d.vertex_by_vertex());
+  ASSERT_EQ(d.surface_mm.size(), 1u);
+  EXPECT_NEAR(d.mean_surface_mm(), 2, 1e-5);
 }
 
 TEST_F(ClothDifferenceTest, RefusesWhatDoesNotMatch) {

@@ -42,7 +42,9 @@ struct SweepOptions {
   std::string truth = "";
   std::string body = "";  // of the truth, if there is none beside it
   // What counts as error and as cost: keys of the results.
-  std::string error = "";  // "": cloth_rms_mm, with a truth body_v2v_mean_mm
+  // "": cloth_rms_mm, or cloth_surface_mm if a run has another mesh than the
+  // reference; with a truth body_v2v_mean_mm.
+  std::string error = "";
   std::string cost = "";  // "": cpu_per_simulated_second; of a fit wall_seconds
   // Numbers of the runs' report.json to keep as results, those that there are.
   std::vector<std::string> report = {"total.steps",

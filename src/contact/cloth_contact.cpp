@@ -94,6 +94,7 @@ struct ClothContactDetector::Impl {
 
   Box Union(std::span<const int> vertices) const;
   void FindCandidates(const Points& x1);
+  void Cover(const Points& x1);
   void FindTangled(const std::vector<std::array<int, 2>>& face_pairs);
   void AddElements(int f, int g);
   void AddIfNear(const ElementPair& pair, const Box& a, const Box& b);
@@ -221,6 +222,12 @@ void ClothContactDetector::Impl::FindTangled(
       if (core[v])
         for (const int w : around[v]) tangled[w] = 1;
   }
+}
+
+// Looks anew where a vertex leaves the box that its way was thought to be in.
+void ClothContactDetector::Impl::Cover(const Points& x1) {
+  if ((x1.array() < low.array()).any() || (x1.array() > high.array()).any())
+    FindCandidates(x1);
 }
 
 // All pairs whose boxes, round the way of each vertex from x0 to x1 and a
@@ -424,8 +431,7 @@ int ClothContactDetector::Sweep(const Points& x1,
                                 std::vector<Contact>* contacts,
                                 std::vector<ClothContact>* sources) {
   Impl& s = *impl_;
-  if ((x1.array() < s.low.array()).any() || (x1.array() > s.high.array()).any())
-    s.FindCandidates(x1);
+  s.Cover(x1);
   const std::vector<double> times = s.TouchTimes(x1);
   int touching = 0;
   for (size_t k = 0; k < times.size(); ++k) {
@@ -461,6 +467,7 @@ int ClothContactDetector::Sweep(const Points& x1,
 
 VectorXd ClothContactDetector::Stop(const Points& x1) {
   Impl& s = *impl_;
+  s.Cover(x1);  // what moves less far is covered with it
   VectorXd share = VectorXd::Ones(x1.cols());
   for (int scaling = 0;; ++scaling) {
     const Points moved =

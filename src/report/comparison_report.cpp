@@ -19,6 +19,11 @@ const ComparisonRun* Baseline(const std::vector<ComparisonRun>& runs) {
   return runs.empty() ? nullptr : &runs.back();
 }
 
+// Whether there is anything of it to be reached.
+bool HasBest(const ComparisonRun* baseline) {
+  return baseline && !baseline->points.empty();
+}
+
 std::string Millimetres(double metres) {
   return std::isnan(metres) ? "-" : ShortNumber(1000 * metres);
 }
@@ -35,7 +40,7 @@ Json RunJson(const ComparisonRun& run, const ComparisonRun* baseline) {
   json["evaluations"] = run.summary.counts.evaluations;
   json["evaluations_failed"] = run.summary.counts.failed;
   json["linearizations"] = run.summary.counts.linearizations;
-  if (baseline && !baseline->points.empty()) {
+  if (HasBest(baseline)) {
     const std::optional<long> steps = StepsToReach(run, Best(*baseline));
     json["steps_to_best_of_baseline"] = steps ? Json(*steps) : Json();
   }
@@ -105,16 +110,17 @@ std::string ComparisonText(const std::vector<ComparisonRun>& runs) {
     cell(ShortNumber(last.seconds), 12);
     cell(ShortNumber(last.cost), 12);
     cell(Millimetres(last.body_error), 12);
-    const std::optional<long> steps = StepsToReach(run, Best(*baseline));
-    cell(steps ? std::to_string(*steps) : "never", 19);
+    if (HasBest(baseline)) {
+      const std::optional<long> steps = StepsToReach(run, Best(*baseline));
+      cell(steps ? std::to_string(*steps) : "never", 19);
+    } else {
+      cell("-", 19);
+    }
     out << "  " << Name(run.summary.termination) << "\n";
   }
-  if (baseline)
+  if (HasBest(baseline))
     out << "Baseline: the best "
-        << (std::isnan(
-                baseline->points.empty() ? NAN : baseline->points[0].body_error)
-                ? "cost"
-                : "body error")
+        << (std::isnan(baseline->points[0].body_error) ? "cost" : "body error")
         << " of " << baseline->optimizer << ".\n";
   return out.str();
 }

@@ -7,10 +7,10 @@
 
 namespace invsim {
 
-// printf into a string of at most 400 characters: the rows of text tables.
+// printf into a string: the rows of text tables.
 inline std::string Line(const char* format, auto... values) {
-  char line[400];
-  std::snprintf(line, sizeof(line), format, values...);
+  std::string line(std::snprintf(nullptr, 0, format, values...), ' ');
+  std::snprintf(line.data(), line.size() + 1, format, values...);
   return line;
 }
 

@@ -182,6 +182,18 @@ TEST_F(ClothContactDetectorTest, SweepFindsWhatWasOutOfReach) {
   EXPECT_GT(share.maxCoeff(), 0.1);
 }
 
+// What goes further than it was thought to is stopped as well, though no sweep
+// has looked at the way it takes in the end.
+TEST_F(ClothContactDetectorTest, StopsWhatNoSweepHasSeen) {
+  garment_.placed.rightCols(3).row(1).setConstant(0.05);
+  Detect(Points::Zero(3, 6));
+  Points x1 = garment_.placed;
+  x1.rightCols(3).row(1).setConstant(-0.2);
+  const VectorXd share = detector_->Stop(x1);
+  const double end = 0.05 - 0.25 * share.tail(3).maxCoeff();
+  EXPECT_GT(end, 0);
+}
+
 // Pressed together again and again by what no contact force withstands: only
 // stopping keeps the layers apart, and does.
 TEST_F(ClothContactDetectorTest, StoppingHoldsStepAfterStep) {

@@ -90,8 +90,9 @@ ExitCode CompareCommand::Run(const CommandContext& context) {
       MakeSetup(scene_, data.body, data.garment, data.material));
   const RunFolder folder(context.out.empty() ? kCompareOut : context.out,
                          force_);
-  folder.Write("config.resolved.toml", ResolvedToml(*context.options));
+  fit_.dressings = 1;
   fit_.uncertainty = false;
+  folder.Write("config.resolved.toml", ResolvedToml(*context.options));
 
   FitScene scene{data.body,
                  data.garment,

@@ -250,8 +250,8 @@ FitObserver FitCommand::Observer(const FitData& data,
 
 void FitCommand::Warn(const FitReport& report, const RunFolder& folder) const {
   const FitResult& r = report.result;
-  if (r.dressing.worn >= 0 &&
-      !r.dressing.tries[r.dressing.worn].relaxation->at_rest)
+  const Dressing* worn = r.kept < 0 ? nullptr : &r.rounds[r.kept].dressing;
+  if (worn && worn->worn >= 0 && !worn->tries[worn->worn].relaxation->at_rest)
     LOG(WARNING) << "the cloth was not at rest on the first body";
   if (r.stats.step.missed > 0)
     LOG(WARNING) << r.stats.step.missed

@@ -374,6 +374,10 @@ bool ClothPointsTerm::Linearize(std::vector<FrameBlock>* blocks) {
   return good;
 }
 
+void ClothPointsTerm::set_reference(const ClothReference& reference) {
+  impl_->rollout.set_reference(reference);
+}
+
 ClothRollout& ClothPointsTerm::rollout() { return impl_->rollout; }
 const ClothRollout& ClothPointsTerm::rollout() const { return impl_->rollout; }
 

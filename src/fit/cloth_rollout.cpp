@@ -87,9 +87,4 @@ void ClothRollout::Report(int t,
   on_frame_({t, body, cloth_[t], *simulator_, stats});
 }
 
-void ClothRollout::MoveReference() {
-  reference_.body = bodies_[0];
-  reference_.cloth = cloth_[0];
-}
-
 }  // namespace invsim

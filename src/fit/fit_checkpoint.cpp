@@ -11,7 +11,6 @@ namespace invsim {
 namespace {
 
 constexpr char kStart[] = "/start.npz";
-constexpr char kReference[] = "/reference.npz";
 
 NpyArray Rows(const Points& points) {
   return NpyArray::Doubles({points.cols(), 3},
@@ -25,6 +24,14 @@ Points FromRows(const Npz& npz, const std::string& name, int count) {
 
 }  // namespace
 
+std::string FitCheckpoint::Evaluations(int dressing) const {
+  return folder_ + "/evaluations_" + std::to_string(dressing) + ".bin";
+}
+
+std::string FitCheckpoint::Reference(int dressing) const {
+  return folder_ + "/reference_" + std::to_string(dressing) + ".npz";
+}
+
 std::optional<BodySequence> FitCheckpoint::LoadStart(int num_frames) const {
   const std::string path = folder_ + kStart;
   if (!kept() || !std::filesystem::exists(path)) return std::nullopt;
@@ -36,8 +43,8 @@ std::optional<BodySequence> FitCheckpoint::LoadStart(int num_frames) const {
 }
 
 std::optional<ClothReference> FitCheckpoint::LoadReference(
-    int body_vertices, int cloth_vertices) const {
-  const std::string path = folder_ + kReference;
+    int dressing, int body_vertices, int cloth_vertices) const {
+  const std::string path = Reference(dressing);
   if (!kept() || !std::filesystem::exists(path)) return std::nullopt;
   const Npz npz = ReadNpz(path);
   return ClothReference{
@@ -54,9 +61,9 @@ void FitCheckpoint::Save(const BodySequence& start) const {
   WriteMotion(folder_ + kStart, motion);
 }
 
-void FitCheckpoint::Save(const ClothReference& reference) const {
+void FitCheckpoint::Save(int dressing, const ClothReference& reference) const {
   if (!kept()) return;
-  WriteNpz(folder_ + kReference,
+  WriteNpz(Reference(dressing),
            {{"body", Rows(reference.body)},
             {"x", Rows(reference.cloth.x)},
             {"v", Rows(reference.cloth.v)}});

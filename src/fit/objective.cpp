@@ -13,6 +13,14 @@
 #include "prior_costs.h"
 
 namespace invsim {
+
+void ObjectiveCounts::Add(const ObjectiveCounts& other) {
+  evaluations += other.evaluations;
+  linearizations += other.linearizations;
+  abandoned += other.abandoned;
+  failed += other.failed;
+  no_derivative += other.no_derivative;
+}
 namespace {
 
 // What the data term said about the current point.

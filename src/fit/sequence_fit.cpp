@@ -74,6 +74,14 @@ StepStats DressingSteps(const Dressing& dressing) {
   return all;
 }
 
+// Nothing was kept yet, or this ended at less.
+bool IsBetter(const FitRound& round, const FitResult& result) {
+  if (result.kept < 0) return true;
+  const OptimizerSummary* kept = result.optimizer();
+  return kept && round.optimizer && round.optimizer->usable() &&
+         round.optimizer->final_cost < kept->final_cost;
+}
+
 class Fitter {
  public:
   Fitter(const FitScene& scene,
@@ -96,20 +104,25 @@ class Fitter {
   bool MayGoOn() const { return !InterruptRequested() && !TimeIsUp(); }
 
   void FindStart();
-  ClothPointsTerm Term(const std::vector<Points>& clouds,
-                       const ClothReference& reference) const;
+  void GoThroughRound();
+  bool WantsAnotherRound() const;
+  Dressing DressBody();
+  std::unique_ptr<ClothPointsTerm> Term(const std::vector<Points>& clouds,
+                                        const ClothReference& reference) const;
   double StartingCost(const ClothReference& reference) const;
-  void DressStart();
-  void Optimize(ClothPointsTerm* term);
-  void Simulate(ClothPointsTerm* term);
-  void FindUncertain(Objective* objective);
+  std::unique_ptr<RememberedTerm> Remembered(int round);
+  OptimizerSummary Optimize(BodySequence* body);
+  void FindUncertain();
+  void Simulate();
   void Conclude();
+  bool CutShort() const;
 
   const FitScene& scene_;
   const FitOptions& options_;
   const FitObserver& observer_;
   FitCheckpoint checkpoint_;
   Stopwatch watch_;
+  std::unique_ptr<ClothPointsTerm> term_;  // none before something was worn
   FitResult result_;
 };
 
@@ -137,149 +150,219 @@ void Fitter::FindStart() {
   result_.seconds.init = watch.seconds();
 }
 
-ClothPointsTerm Fitter::Term(const std::vector<Points>& clouds,
-                             const ClothReference& reference) const {
-  return {scene_.body,
-          scene_.simulator,
-          scene_.garment.faces,
-          VertexAreas(scene_.garment),
-          clouds,
-          scene_.frames_per_second,
-          reference,
-          options_.data};
+std::unique_ptr<ClothPointsTerm> Fitter::Term(
+    const std::vector<Points>& clouds, const ClothReference& reference) const {
+  return std::make_unique<ClothPointsTerm>(scene_.body,
+                                           scene_.simulator,
+                                           scene_.garment.faces,
+                                           VertexAreas(scene_.garment),
+                                           clouds,
+                                           scene_.frames_per_second,
+                                           reference,
+                                           options_.data);
 }
 
 // Of the first frames, from this cloth.
 double Fitter::StartingCost(const ClothReference& reference) const {
   const auto judged = std::min<size_t>(kJudgedFrames, scene_.clouds.size());
-  ClothPointsTerm term =
+  const std::unique_ptr<ClothPointsTerm> term =
       Term({scene_.clouds.begin(), scene_.clouds.begin() + judged}, reference);
   std::vector<double> costs;
-  if (term.Evaluate(result_.start, kNoLimit, &costs) != Evaluation::kDone)
+  if (term->Evaluate(result_.body, kNoLimit, &costs) != Evaluation::kDone)
     return kNoLimit;
   return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
-// Stage 2.
-void Fitter::DressStart() {
+// Stage 2, on the best body so far.
+Dressing Fitter::DressBody() {
+  const int round = static_cast<int>(result_.rounds.size());
+  Dressing known;
+  known.reference = checkpoint_.LoadReference(
+      round, scene_.body.num_vertices(), scene_.garment.num_vertices());
+  if (!known.reference) known.reference = scene_.reference;
+  if (known.reference) return known;
   const Stopwatch watch;
-  result_.reference = checkpoint_.LoadReference(scene_.body.num_vertices(),
-                                                scene_.garment.num_vertices());
-  if (!result_.reference) result_.reference = scene_.reference;
-  if (result_.reference) return;
   std::vector<BodyParameters> motion;
-  for (int t = 0; t < result_.start.num_frames(); ++t)
-    motion.push_back(result_.start.Frame(t));
-  result_.dressing = Dress(
+  for (int t = 0; t < result_.body.num_frames(); ++t)
+    motion.push_back(result_.body.Frame(t));
+  Dressing dressing = Dress(
       {scene_.body, scene_.garment, motion, scene_.frames_per_second},
       options_.relaxation,
       scene_.simulator,
       [this](const ClothReference& cloth) { return StartingCost(cloth); },
       observer_.relaxation);
-  result_.reference = result_.dressing.reference;
-  if (result_.reference) checkpoint_.Save(*result_.reference);
-  result_.seconds.dressing = watch.seconds();
+  if (dressing.reference) checkpoint_.Save(round, *dressing.reference);
+  result_.seconds.dressing += watch.seconds();
+  return dressing;
 }
 
-// Stage 3, and the uncertainty of stage 4.
-void Fitter::Optimize(ClothPointsTerm* term) {
-  std::unique_ptr<RememberedTerm> remembered;
-  if (checkpoint_.kept())
-    remembered =
-        std::make_unique<RememberedTerm>(term, checkpoint_.evaluations());
+// The term with what is known of it from that round; null if nothing is kept.
+std::unique_ptr<RememberedTerm> Fitter::Remembered(int round) {
+  if (!checkpoint_.kept()) return nullptr;
+  return std::make_unique<RememberedTerm>(term_.get(),
+                                          checkpoint_.Evaluations(round));
+}
+
+// Stage 3.
+OptimizerSummary Fitter::Optimize(BodySequence* body) {
+  const Stopwatch watch;
+  const std::unique_ptr<RememberedTerm> remembered =
+      Remembered(static_cast<int>(result_.rounds.size()));
   Objective objective(
       options_.priors,
       FreeParameters{},
-      remembered ? static_cast<DataTerm*>(remembered.get()) : term,
-      &result_.body);
-  const Stopwatch watch;
+      remembered ? static_cast<DataTerm*>(remembered.get()) : term_.get(),
+      body);
   const auto observer = [&](const IterationRecord& record) {
     const bool wanted =
         !observer_.iteration ||
-        observer_.iteration(
-            {record, result_.body, term->rollout().stats().substeps});
+        observer_.iteration({record, *body, term_->rollout().stats().substeps});
     const bool written = !remembered || remembered->error().empty();
     return wanted && written && MayGoOn();
   };
-  result_.optimizer = options_.optimizers.at(options_.optimizer)
-                          ->Make()
-                          ->Run(&objective, observer);
-  result_.seconds.optimization = watch.seconds();
+  OptimizerSummary summary = options_.optimizers.at(options_.optimizer)
+                                 ->Make()
+                                 ->Run(&objective, observer);
+  result_.seconds.optimization += watch.seconds();
   if (remembered) {
-    result_.recalled = remembered->recalled();
+    result_.recalled += remembered->recalled();
     if (!remembered->error().empty()) throw InputError(remembered->error());
   }
-  if (result_.optimizer->usable() && options_.uncertainty && MayGoOn())
-    FindUncertain(&objective);
+  return summary;
 }
 
-void Fitter::FindUncertain(Objective* objective) {
+// Stages 2 and 3, from the best body so far.
+void Fitter::GoThroughRound() {
+  FitRound& round = result_.rounds.emplace_back();
+  round.dressing = DressBody();
+  if (!round.dressing.reference || InterruptRequested()) return;
+  if (term_)
+    term_->set_reference(*round.dressing.reference);
+  else
+    term_ = Term(scene_.clouds, *round.dressing.reference);
+  BodySequence body = result_.body;
+  if (scene_.optimize && MayGoOn()) round.optimizer = Optimize(&body);
+  if (!IsBetter(round, result_)) return;
+  result_.body = body;
+  result_.kept = static_cast<int>(result_.rounds.size()) - 1;
+}
+
+bool Fitter::WantsAnotherRound() const {
+  const std::optional<OptimizerSummary>& last = result_.rounds.back().optimizer;
+  return last && last->termination == Termination::kConverged &&
+         !scene_.reference &&
+         static_cast<int>(result_.rounds.size()) < options_.dressings;
+}
+
+// Of stage 4.
+void Fitter::FindUncertain() {
   const Stopwatch watch;
-  result_.uncertainty = FindUncertainty(options_.priors, objective);
+  const std::unique_ptr<RememberedTerm> remembered =
+      Remembered(result_.kept + 1);
+  Objective objective(
+      options_.priors,
+      FreeParameters{},
+      remembered ? static_cast<DataTerm*>(remembered.get()) : term_.get(),
+      &result_.body);
+  result_.uncertainty = FindUncertainty(options_.priors, &objective);
   result_.seconds.uncertainty = watch.seconds();
 }
 
 // Stage 4.
-void Fitter::Simulate(ClothPointsTerm* term) {
+void Fitter::Simulate() {
   const Stopwatch watch;
+  for (PoseVector& pose : result_.body.poses) Canonicalize(&pose);
   std::vector<double> costs;
-  term->rollout().set_on_frame(observer_.frame);
+  term_->rollout().set_on_frame(observer_.frame);
   result_.simulated =
-      term->Evaluate(result_.body, kNoLimit, &costs) == Evaluation::kDone;
-  if (result_.simulated) result_.costs = term->costs();
+      term_->Evaluate(result_.body, kNoLimit, &costs) == Evaluation::kDone;
+  if (result_.simulated) result_.costs = term_->costs();
   result_.seconds.final_simulation = watch.seconds();
+}
+
+// Whether something was left out because of a wish to stop.
+bool Fitter::CutShort() const {
+  if (!result_.optimizer()) return scene_.optimize || TimeIsUp();
+  const std::optional<OptimizerSummary>& last = result_.rounds.back().optimizer;
+  return WantsAnotherRound() ||
+         (last && last->termination == Termination::kInterrupted);
 }
 
 void Fitter::Conclude() {
   result_.termination = Termination::kConverged;
   result_.reason = "The initialisation is done.";
-  if (result_.optimizer) {
-    const OptimizerSummary& optimizer = *result_.optimizer;
-    result_.termination = optimizer.termination;
-    result_.reason = optimizer.reason;
-    if (!optimizer.usable() || optimizer.termination == Termination::kStalled)
-      result_.reason = WithCause(
-          optimizer.reason, result_.stats.step, optimizer.counts.no_derivative);
+  const OptimizerSummary* optimizer = result_.optimizer();
+  if (optimizer) {
+    result_.termination = optimizer->termination;
+    result_.reason = optimizer->reason;
+    if (!optimizer->usable() || optimizer->termination == Termination::kStalled)
+      result_.reason = WithCause(optimizer->reason,
+                                 result_.stats.step,
+                                 result_.counts().no_derivative);
   }
   if (!result_.simulated) {
     result_.termination = Termination::kFailed;
     result_.reason = "The garment cannot be simulated on the body found.";
-    if (result_.reference)
+    if (result_.kept >= 0)
       result_.reason = WithCause(result_.reason, result_.stats.step, 0);
-    else
+    else if (!result_.rounds.empty())
       result_.reason =
           WithCause("The garment cannot be dressed on the first body.",
-                    DressingSteps(result_.dressing),
+                    DressingSteps(result_.rounds.front().dressing),
                     0);
   }
-  // Who stopped early was told to.
-  const bool early = result_.termination == Termination::kInterrupted ||
-                     !result_.simulated || !result_.optimizer;
   if (InterruptRequested()) {
     result_.termination = Termination::kInterrupted;
     result_.reason = "Interrupted.";
-  } else if (early && TimeIsUp() && result_.simulated) {
-    result_.termination = Termination::kTimeLimit;
-    result_.reason = "The time limit was reached.";
+  } else if (result_.simulated && CutShort()) {
+    const bool late = TimeIsUp();
+    result_.termination =
+        late ? Termination::kTimeLimit : Termination::kInterrupted;
+    result_.reason = late ? "The time limit was reached." : "Stopped as asked.";
   }
 }
 
 FitResult Fitter::Run() {
   FindStart();
   result_.body = result_.start;
-  if (!InterruptRequested()) DressStart();
-  if (result_.reference && !InterruptRequested()) {
-    ClothPointsTerm term = Term(scene_.clouds, *result_.reference);
-    if (scene_.optimize && MayGoOn()) Optimize(&term);
-    for (PoseVector& pose : result_.body.poses) Canonicalize(&pose);
-    if (!InterruptRequested()) Simulate(&term);
-    result_.stats = term.stats();
+  if (!InterruptRequested()) GoThroughRound();
+  while (MayGoOn() && WantsAnotherRound()) GoThroughRound();
+  if (result_.kept >= 0 && !InterruptRequested()) {
+    term_->set_reference(*result_.reference());
+    const OptimizerSummary* optimizer = result_.optimizer();
+    if (optimizer && optimizer->usable() && options_.uncertainty && MayGoOn())
+      FindUncertain();
+    Simulate();
   }
+  if (term_) result_.stats = term_->stats();
   Conclude();
   return std::move(result_);
 }
 
 }  // namespace
+
+const OptimizerSummary* FitResult::optimizer() const {
+  if (kept < 0 || !rounds[kept].optimizer) return nullptr;
+  return &*rounds[kept].optimizer;
+}
+
+const ClothReference* FitResult::reference() const {
+  return kept < 0 ? nullptr : &*rounds[kept].dressing.reference;
+}
+
+ObjectiveCounts FitResult::counts() const {
+  ObjectiveCounts all;
+  for (const FitRound& round : rounds)
+    if (round.optimizer) all.Add(round.optimizer->counts);
+  return all;
+}
+
+int FitResult::iterations() const {
+  int all = 0;
+  for (const FitRound& round : rounds)
+    if (round.optimizer) all += round.optimizer->num_iterations();
+  return all;
+}
 
 FitOptions::FitOptions() {
   for (const std::string& name : Optimizers().names())
@@ -294,6 +377,12 @@ void Describe(OptionTable* table, FitOptions* o) {
   table->Add("fit.optimizer",
              &o->optimizer,
              {.doc = "what moves the body", .choices = Optimizers().names()});
+  table->Add("fit.dressings",
+             &o->dressings,
+             {.doc = "times the garment is dressed at most: first on the body "
+                     "of the initialisation, then on the body found; the fit "
+                     "of least cost is kept",
+              .at_least = 1});
   table->Add("fit.uncertainty",
              &o->uncertainty,
              {.doc = "whether the covariance of the unknowns is found"});

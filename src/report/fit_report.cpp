@@ -18,6 +18,26 @@ const char* Usable(const FitReport& report) {
   return report.result.usable() ? "usable" : "not usable";
 }
 
+// One round after the other.
+Chart CostChart(const std::vector<FitRound>& rounds) {
+  Chart cost;
+  cost.title = "cost";
+  cost.x_title = "time of the optimisation [s]";
+  cost.log_y = true;
+  cost.series = {{"all", {}}, {"data", {}}};
+  double before = 0;
+  for (const FitRound& round : rounds) {
+    if (!round.optimizer) continue;
+    for (const IterationRecord& i : round.optimizer->iterations) {
+      cost.x.push_back(before + i.seconds);
+      cost.series[0].values.push_back(i.cost);
+      cost.series[1].values.push_back(i.terms.data);
+    }
+    before += round.optimizer->seconds;
+  }
+  return cost;
+}
+
 }  // namespace
 
 FrameStats Simulated(const FitReport& report) {
@@ -39,13 +59,10 @@ std::string Verdict(const FitReport& report) {
   std::string name = Name(r.termination);
   name[0] = static_cast<char>(std::toupper(name[0]));
   out << name << ", " << Usable(report);
-  if (r.optimizer && r.optimizer->initial_cost > 0)
-    out << ": cost " << ShortNumber(r.optimizer->initial_cost) << " to "
-        << ShortNumber(r.optimizer->final_cost) << " in "
-        << (r.optimizer->iterations.empty()
-                ? 0
-                : r.optimizer->iterations.size() - 1)
-        << " iterations";
+  if (r.optimizer() && r.rounds.front().optimizer->initial_cost > 0)
+    out << ": cost " << ShortNumber(r.rounds.front().optimizer->initial_cost)
+        << " to " << ShortNumber(r.optimizer()->final_cost) << " in "
+        << r.iterations() << " iterations";
   out << ". " << r.reason;
   const FrameStats last = Simulated(report);
   if (r.simulated)
@@ -59,7 +76,7 @@ std::string Verdict(const FitReport& report) {
 
 std::vector<std::string> Approximations(const FitReport& report) {
   std::vector<std::string> list;
-  if (report.result.optimizer)
+  if (report.result.optimizer())
     list.push_back(
         report.history == History::kOneFrame
             ? "History of one frame: the derivative of the cloth at a frame is "
@@ -113,36 +130,30 @@ std::vector<std::pair<std::string, double>> TimeByPart(
 std::string IterationsCsv(const FitReport& report) {
   std::ostringstream out;
   out.precision(10);
-  out << "iteration,successful,cost,data,smoothness,shape,pose,overlap,"
+  out << "dressing,iteration,successful,cost,data,smoothness,shape,pose,"
+         "overlap,"
          "gradient_max_norm,step_norm,evaluations,abandoned,failed,"
          "linearizations,seconds\n";
-  if (!report.result.optimizer) return out.str();
-  for (const IterationRecord& i : report.result.optimizer->iterations)
-    out << i.iteration << ',' << i.successful << ',' << i.cost << ','
-        << i.terms.data << ',' << i.terms.smoothness << ',' << i.terms.shape
-        << ',' << i.terms.pose << ',' << i.terms.overlap << ','
-        << i.gradient_norm << ',' << i.step_norm << ',' << i.counts.evaluations
-        << ',' << i.counts.abandoned << ',' << i.counts.failed << ','
-        << i.counts.linearizations << ',' << i.seconds << '\n';
+  int dressing = 0;
+  for (const FitRound& round : report.result.rounds) {
+    ++dressing;
+    if (!round.optimizer) continue;
+    for (const IterationRecord& i : round.optimizer->iterations)
+      out << dressing << ',' << i.iteration << ',' << i.successful << ','
+          << i.cost << ',' << i.terms.data << ',' << i.terms.smoothness << ','
+          << i.terms.shape << ',' << i.terms.pose << ',' << i.terms.overlap
+          << ',' << i.gradient_norm << ',' << i.step_norm << ','
+          << i.counts.evaluations << ',' << i.counts.abandoned << ','
+          << i.counts.failed << ',' << i.counts.linearizations << ','
+          << i.seconds << '\n';
+  }
   return out.str();
 }
 
 std::vector<Chart> FitCharts(const FitReport& report) {
   std::vector<Chart> charts;
-  if (report.result.optimizer &&
-      report.result.optimizer->iterations.size() > 1) {
-    Chart cost;
-    cost.title = "cost";
-    cost.x_title = "time of the optimisation [s]";
-    cost.log_y = true;
-    cost.series = {{"all", {}}, {"data", {}}};
-    for (const IterationRecord& i : report.result.optimizer->iterations) {
-      cost.x.push_back(i.seconds);
-      cost.series[0].values.push_back(i.cost);
-      cost.series[1].values.push_back(i.terms.data);
-    }
-    charts.push_back(cost);
-  }
+  if (report.result.iterations() > 0)
+    charts.push_back(CostChart(report.result.rounds));
   if (report.simulated.size() < 2) return charts;
   Chart base;
   base.x_title = "time of the sequence [s]";

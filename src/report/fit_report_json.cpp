@@ -45,7 +45,7 @@ Json InputsJson(const FitReport& r) {
   return json;
 }
 
-Json DressingJson(const Dressing& dressing) {
+Json TriesJson(const Dressing& dressing) {
   Json tries = Json::array();
   for (const DressingTry& tried : dressing.tries) {
     Json json;
@@ -88,18 +88,39 @@ Json CostJson(const CostTerms& terms) {
   return json;
 }
 
-Json OptimizerJson(const OptimizerSummary& s) {
+Json DressingsJson(const FitResult& r) {
+  Json dressings = Json::array();
+  for (const FitRound& round : r.rounds) {
+    Json json;
+    json["kept"] = static_cast<int>(dressings.size()) == r.kept;
+    json["tries"] = TriesJson(round.dressing);
+    if (const auto& optimizer = round.optimizer) {
+      json["termination"] = Name(optimizer->termination);
+      json["reason"] = optimizer->reason;
+      json["iterations"] = optimizer->num_iterations();
+      json["initial_cost"] = optimizer->initial_cost;
+      json["final_cost"] = optimizer->final_cost;
+    }
+    dressings.push_back(std::move(json));
+  }
+  return dressings;
+}
+
+// Of all rounds, with the end of the one kept.
+Json OptimizationJson(const FitResult& r) {
+  const OptimizerSummary& s = *r.optimizer();
+  const ObjectiveCounts counts = r.counts();
   Json json;
   json["termination"] = Name(s.termination);
   json["reason"] = s.reason;
-  json["iterations"] = s.iterations.empty() ? 0 : s.iterations.size() - 1;
-  json["initial_cost"] = s.initial_cost;
+  json["iterations"] = r.iterations();
+  json["initial_cost"] = r.rounds.front().optimizer->initial_cost;
   json["final_cost"] = s.final_cost;
-  json["evaluations"] = s.counts.evaluations;
-  json["evaluations_abandoned"] = s.counts.abandoned;
-  json["evaluations_failed"] = s.counts.failed;
-  json["evaluations_without_derivative"] = s.counts.no_derivative;
-  json["linearizations"] = s.counts.linearizations;
+  json["evaluations"] = counts.evaluations;
+  json["evaluations_abandoned"] = counts.abandoned;
+  json["evaluations_failed"] = counts.failed;
+  json["evaluations_without_derivative"] = counts.no_derivative;
+  json["linearizations"] = counts.linearizations;
   if (!s.iterations.empty())
     json["cost_by_term"] = CostJson(s.iterations.back().terms);
   return json;
@@ -159,11 +180,11 @@ std::string FitJson(const FitReport& report) {
   json["inputs"] = InputsJson(report);
   json["effects"] = EffectsJson(report.effects);
   json["shape"] = List(r.body.shape);
-  if (r.optimizer) json["optimization"] = OptimizerJson(*r.optimizer);
+  if (r.optimizer()) json["optimization"] = OptimizationJson(r);
   json["cost_by_distance"] = {{"cloth_to_points", r.costs.cloth_to_points},
                               {"skin_to_points", r.costs.skin_to_points},
                               {"points_to_surface", r.costs.points_to_surface}};
-  json["dressing"] = DressingJson(r.dressing);
+  json["dressings"] = DressingsJson(r);
   json["simulation"] = StepsJson(r.stats.step);
   json["simulation"]["neighbour_queries"] = r.stats.neighbour_queries;
   const FrameStats last = Simulated(report);

@@ -17,7 +17,7 @@ class Lines {
   explicit Lines(std::ostream* out) : out_(out) {}
   Lines& Add(const std::string& name, const std::string& value) {
     std::string padded = name;
-    padded.resize(std::max<size_t>(padded.size() + 1, 26), ' ');
+    padded.resize(std::max<size_t>(padded.size() + 1, 28), ' ');
     *out_ << "  " << padded << value << "\n";
     return *this;
   }
@@ -58,7 +58,7 @@ void InputText(const FitReport& r, std::ostream* out) {
       .Add("threads", std::to_string(r.threads));
 }
 
-std::string DressingText(const DressingTry& tried) {
+std::string TryText(const DressingTry& tried) {
   if (!tried.refused.empty()) return tried.refused;
   const RelaxationResult& r = *tried.relaxation;
   const std::string frames = std::to_string(r.frames) + " frames";
@@ -70,6 +70,13 @@ std::string DressingText(const DressingTry& tried) {
          " cm/s), first frames cost " + ShortNumber(tried.cost);
 }
 
+std::string RoundText(const OptimizerSummary& s) {
+  return "cost " + ShortNumber(s.initial_cost) + " to " +
+         ShortNumber(s.final_cost) + " in " +
+         std::to_string(s.num_iterations()) + " iterations, " +
+         Name(s.termination);
+}
+
 void StartText(const FitResult& r, std::ostream* out) {
   *out << "\nInitialisation\n";
   Lines lines(out);
@@ -79,36 +86,53 @@ void StartText(const FitResult& r, std::ostream* out) {
   } else {
     lines.Add("body", "as given, or found in the checkpoint");
   }
-  for (const DressingTry& tried : r.dressing.tries)
-    lines.Add(std::string("garment ") + Name(tried.way), DressingText(tried));
-  if (r.dressing.worn >= 0 && r.dressing.tries.size() > 1)
-    lines.Add("worn", Name(r.dressing.tries[r.dressing.worn].way));
+}
+
+void DressingsText(const FitResult& r, std::ostream* out) {
+  int number = 0;
+  for (const FitRound& round : r.rounds) {
+    ++number;
+    *out << "\nDressing " << number << ", on the body "
+         << (number == 1 ? "of the initialisation" : "found so far") << "\n";
+    Lines lines(out);
+    const Dressing& d = round.dressing;
+    for (const DressingTry& tried : d.tries)
+      lines.Add(std::string("garment ") + Name(tried.way), TryText(tried));
+    if (d.tries.empty())
+      lines.Add("garment", "as given, or found in the checkpoint");
+    if (d.worn >= 0 && d.tries.size() > 1)
+      lines.Add("worn", Name(d.tries[d.worn].way));
+    if (round.optimizer)
+      lines.Add("fit from there", RoundText(*round.optimizer));
+  }
+  if (r.rounds.size() > 1) *out << "\nKept: dressing " << r.kept + 1 << "\n";
 }
 
 void OptimizerText(const FitReport& report, std::ostream* out) {
-  const OptimizerSummary& s = *report.result.optimizer;
+  const FitResult& r = report.result;
+  const OptimizerSummary& s = *r.optimizer();
+  const ObjectiveCounts counts = r.counts();
   *out << "\nOptimisation by " << report.optimizer << "\n";
   Lines lines(out);
   lines.Add("ended", std::string(Name(s.termination)) + ": " + s.reason)
       .Add("cost",
-           ShortNumber(s.initial_cost) + " to " + ShortNumber(s.final_cost))
-      .Add("iterations",
-           std::to_string(s.iterations.empty() ? 0 : s.iterations.size() - 1))
-      .Add("evaluations", std::to_string(s.counts.evaluations))
-      .Add("  given up as worse", std::to_string(s.counts.abandoned))
+           ShortNumber(r.rounds.front().optimizer->initial_cost) + " to " +
+               ShortNumber(s.final_cost))
+      .Add("iterations", std::to_string(r.iterations()))
+      .Add("evaluations", std::to_string(counts.evaluations))
+      .Add("  given up as worse", std::to_string(counts.abandoned))
       .Add("  failed",
-           std::to_string(s.counts.failed) +
-               (s.counts.failed > 0
+           std::to_string(counts.failed) +
+               (counts.failed > 0
                     ? " (no derivative at " +
-                          std::to_string(s.counts.no_derivative) + " of them)"
+                          std::to_string(counts.no_derivative) + " of them)"
                     : ""))
-      .Add("linearisations", std::to_string(s.counts.linearizations));
-  if (report.result.recalled > 0)
-    lines.Add("answers from checkpoint",
-              std::to_string(report.result.recalled));
+      .Add("linearisations", std::to_string(counts.linearizations));
+  if (r.recalled > 0)
+    lines.Add("answers from checkpoint", std::to_string(r.recalled));
   if (s.iterations.empty()) return;
   const CostTerms& terms = s.iterations.back().terms;
-  const ClothPointsCosts& costs = report.result.costs;
+  const ClothPointsCosts& costs = r.costs;
   *out << "\nCost by term\n";
   Lines(out)
       .Add("data", terms.data)
@@ -188,7 +212,8 @@ std::string FitText(const FitReport& report) {
   InputText(report, &out);
   out << "\nEffects\n" << DecisionsText(report.effects);
   StartText(r, &out);
-  if (r.optimizer) OptimizerText(report, &out);
+  DressingsText(r, &out);
+  if (r.optimizer()) OptimizerText(report, &out);
   SimulationText(report, &out);
   if (r.uncertainty) UncertaintyText(*r.uncertainty, &out);
   out << "\nApproximations in force\n";
@@ -198,8 +223,8 @@ std::string FitText(const FitReport& report) {
   Lines lines(&out);
   for (const auto& [name, seconds] : TimeByPart(report))
     lines.Add(name, seconds, " s");
-  if (r.optimizer && !r.optimizer->details.empty())
-    out << "\nCeres's own report\n" << r.optimizer->details << "\n";
+  if (r.optimizer() && !r.optimizer()->details.empty())
+    out << "\nCeres's own report\n" << r.optimizer()->details << "\n";
   return out.str();
 }
 

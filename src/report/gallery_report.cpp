@@ -88,7 +88,7 @@ std::string TextRow(const GalleryFitRow& row) {
                 Word(row),
                 o.refusal.c_str());
   const OptimizerSummary s =
-      o.result.optimizer ? *o.result.optimizer : OptimizerSummary();
+      o.result.optimizer() ? *o.result.optimizer() : OptimizerSummary();
   const std::string cost =
       s.iterations.empty() ? "-" : FromTo(s.initial_cost, s.final_cost);
   const std::string error = FromTo(1e3 * o.start_error, 1e3 * o.body_error);
@@ -97,7 +97,7 @@ std::string TextRow(const GalleryFitRow& row) {
               Word(row),
               Name(o.result.termination),
               cost.c_str(),
-              s.counts.evaluations,
+              o.result.counts().evaluations,
               s.counts.failed,
               error.c_str(),
               o.seconds);
@@ -143,11 +143,11 @@ Json JsonRow(const GalleryFitRow& row) {
   json["status"] = Name(o.result.termination);
   json["usable"] = o.result.usable();
   json["reason"] = o.result.reason;
-  if (o.result.optimizer) {
-    const OptimizerSummary& s = *o.result.optimizer;
+  if (o.result.optimizer()) {
+    const OptimizerSummary& s = *o.result.optimizer();
     json["initial_cost"] = NumberOrNull(s.initial_cost);
     json["final_cost"] = NumberOrNull(s.final_cost);
-    json["evaluations"] = s.counts.evaluations;
+    json["evaluations"] = o.result.counts().evaluations;
     json["evaluations_failed"] = s.counts.failed;
     json["evaluations_without_derivative"] = s.counts.no_derivative;
   }

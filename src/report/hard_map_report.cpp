@@ -69,7 +69,7 @@ std::string HardMapText(const HardMapReport& report) {
     for (const HardMapCell& cell : report.cells[j]) {
       std::snprintf(text,
                     sizeof(text),
-                    "%6.0f %-2s",
+                    "%4.0f %-4s",
                     cell.iterations,
                     Marks(cell.outcome).c_str());
       out += text;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "invsim/sim/simulator.h"
+
 namespace invsim {
 namespace {
 

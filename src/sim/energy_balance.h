@@ -12,9 +12,6 @@
 
 namespace invsim {
 
-// Weighs vertices where there may be no gravity, m/s^2.
-inline constexpr double kStandardGravity = 9.81;
-
 using EffectList = std::vector<std::unique_ptr<Effect>>;
 
 double KineticEnergy(const VectorXd& mass, const ClothState& state);  // J

@@ -38,8 +38,8 @@ std::string InMillimetres(double metres) {
 }
 
 // What of the promises of hard_fit.h an optimiser's summary breaks.
-void JudgeOptimizer(const FitResult& r, std::vector<std::string>* broken) {
-  const OptimizerSummary& s = *r.optimizer;
+void JudgeOptimizer(const OptimizerSummary& s,
+                    std::vector<std::string>* broken) {
   if (s.usable() &&
       !(std::isfinite(s.initial_cost) && std::isfinite(s.final_cost)))
     broken->push_back("a cost is not finite");
@@ -50,10 +50,12 @@ void JudgeOptimizer(const FitResult& r, std::vector<std::string>* broken) {
     if (!(i.cost <= last)) broken->push_back("the cost rose on the way");
     last = i.cost;
   }
-  int causes = s.counts.no_derivative;
+}
+
+bool EveryFailureHasACause(const FitResult& r) {
+  int causes = r.counts().no_derivative;
   for (const auto& [why, count] : r.stats.step.failures) causes += count;
-  if (causes < s.counts.failed)
-    broken->push_back("evaluations failed without a reason given");
+  return causes >= r.counts().failed;
 }
 
 void Judge(const HardFit& fit, bool cloth_finite, HardFitOutcome* o) {
@@ -64,7 +66,10 @@ void Judge(const HardFit& fit, bool cloth_finite, HardFitOutcome* o) {
   if (r.uncertainty && r.uncertainty->failure.empty() &&
       !Finite(*r.uncertainty))
     fail("the uncertainty is not finite");
-  if (r.optimizer) JudgeOptimizer(r, &o->broken);
+  for (const FitRound& round : r.rounds)
+    if (round.optimizer) JudgeOptimizer(*round.optimizer, &o->broken);
+  if (!EveryFailureHasACause(r))
+    fail("evaluations failed without a reason given");
   if (std::find(fit.ends.begin(), fit.ends.end(), r.termination) ==
       fit.ends.end())
     fail(std::string("ended as ") + Name(r.termination) + ": " + r.reason);

@@ -95,7 +95,7 @@ HardFit Struck(Fault fault, int after, int times) {
 HardFit OneBadStep() {
   HardFit fit = Struck(Fault::kForce, 0, 1);
   fit.check = [](const FitResult& r) {
-    return Unless(r.optimizer->counts.failed == 0 && r.stats.step.halved > 0,
+    return Unless(r.counts().failed == 0 && r.stats.step.halved > 0,
                   "not mended by halving");
   };
   fit.body_error = 0.05;
@@ -109,7 +109,7 @@ HardFit OneBadEvaluation(Fault fault, const char* cause) {
   HardFit fit = Struck(fault, 0, attempts + (fault == Fault::kForce));
   fit.check = [=](const FitResult& r) {
     return Unless(
-        r.optimizer->counts.failed == 1 &&
+        r.counts().failed == 1 &&
             r.stats.step.failures == std::map<std::string, int>{{cause, 1}},
         "not counted with its reason");
   };
@@ -124,7 +124,7 @@ HardFit NoDerivative() {
   SetOption(&fit, "step.substeps", "2");
   fit.ends = {Termination::kStalled};
   fit.check = [start = *fit.start](const FitResult& r) {
-    const OptimizerSummary& s = *r.optimizer;
+    const OptimizerSummary& s = *r.optimizer();
     if (s.counts.no_derivative == 0) return "not counted";
     if (r.uncertainty->failure.empty()) return "an uncertainty from nowhere";
     const bool kept = r.body.shape == start.shape &&

@@ -63,7 +63,7 @@ class EnergyAccount {
       : simulator_(simulator),
         first_(Total(state)),
         // A cloth lifted by a millimetre is no drift.
-        turnover_(9.81 * simulator.mass().sum() * 1e-3) {}
+        turnover_(kStandardGravity * simulator.mass().sum() * 1e-3) {}
 
   void Add(const FrameRecord& record, const ClothState& state) {
     const Work work = ContactWork(record);
@@ -144,7 +144,7 @@ void CheckDerivative(const HardScene& scene,
   // A residual of the tolerance, in weights, moves a free vertex by tolerance
   // g T^2 in a frame of T; light neighbours of heavy ones by more.
   const double frame = 1 / scene.frames_per_second;
-  options.noise = 10 * kTightTolerance * 9.81 * frame * frame;
+  options.noise = 10 * kTightTolerance * kStandardGravity * frame * frame;
   try {
     const GradientCheck check = CheckFrameGradient(options,
                                                    body,

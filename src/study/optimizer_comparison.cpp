@@ -52,8 +52,8 @@ std::vector<ComparisonRun> CompareOptimizers(
     };
     FitResult result = FitSequence(scene, *options, watching);
     scene.start = result.start;
-    scene.reference = result.reference;
-    if (result.optimizer) run.summary = *result.optimizer;
+    if (result.reference()) scene.reference = *result.reference();
+    if (result.optimizer()) run.summary = *result.optimizer();
     if (result.termination == Termination::kTimeLimit) {
       run.summary.termination = result.termination;
       run.summary.reason = result.reason;

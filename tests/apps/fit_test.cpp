@@ -124,7 +124,7 @@ TEST_F(FitCommandTest, WritesTheRunFolder) {
                            "cloth.pc2",
                            "body/000001.ply",
                            "cloth/000001.ply",
-                           "checkpoint/evaluations.bin"})
+                           "checkpoint/evaluations_1.bin"})
     EXPECT_TRUE(fs::is_regular_file(out() / file)) << file;
   const nlohmann::json report = Report();
   EXPECT_EQ(report["schema"], "invsim.fit");
@@ -160,8 +160,8 @@ TEST_F(FitCommandTest, WritesTheRunFolder) {
   std::ifstream csv(out() / "iterations.csv");
   std::string line, third;
   for (int k = 0; k < 4 && std::getline(csv, line); ++k) third = line;
-  EXPECT_THAT(third, StartsWith("2,"));
-  EXPECT_NEAR(std::stod(third.substr(4)), cost, 1e-9 * cost);
+  EXPECT_THAT(third, StartsWith("1,2,"));
+  EXPECT_NEAR(std::stod(third.substr(6)), cost, 1e-9 * cost);
   ExpectRefused(
       "fit --resume -q --out '" + out().string() + "' --set step.substeps=2",
       kUsage,

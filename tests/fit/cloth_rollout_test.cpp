@@ -75,10 +75,10 @@ TEST_F(ClothRolloutTest, TellsOfEveryFrame) {
   EXPECT_EQ(rollout.stats().substeps, steps);
 }
 
-TEST_F(ClothRolloutTest, AMovedReferenceIsWhereItIsLedFrom) {
+TEST_F(ClothRolloutTest, ANewReferenceIsWhereItIsLedFrom) {
   ClothRollout rollout = Make();
   ASSERT_TRUE(rollout.Step(0, Body(0)));
-  rollout.MoveReference();
+  rollout.set_reference({Body(0), rollout.cloth(0)});
   ASSERT_TRUE(rollout.Step(0, Body(2)));
   EXPECT_EQ(rollout.lead_records()[0].body0, Body(0));
 }

@@ -32,9 +32,9 @@ TEST(FitCheckpoint, GivesBackEveryBit) {
       {RandomPoints(5, &random), RandomPoints(5, &random)}};
   const FitCheckpoint checkpoint(::testing::TempDir());
   checkpoint.Save(start);
-  checkpoint.Save(reference);
+  checkpoint.Save(2, reference);
   const auto start2 = checkpoint.LoadStart(4);
-  const auto reference2 = checkpoint.LoadReference(7, 5);
+  const auto reference2 = checkpoint.LoadReference(2, 7, 5);
   ASSERT_TRUE(start2 && reference2);
   EXPECT_EQ(start2->shape, start.shape);
   EXPECT_EQ(start2->poses, start.poses);
@@ -42,15 +42,17 @@ TEST(FitCheckpoint, GivesBackEveryBit) {
   EXPECT_EQ(reference2->body, reference.body);
   EXPECT_EQ(reference2->cloth.x, reference.cloth.x);
   EXPECT_EQ(reference2->cloth.v, reference.cloth.v);
+  EXPECT_FALSE(checkpoint.LoadReference(3, 7, 5));
+  EXPECT_NE(checkpoint.Evaluations(2), checkpoint.Evaluations(3));
   EXPECT_THROW(checkpoint.LoadStart(5), InputError);
-  EXPECT_THROW(checkpoint.LoadReference(7, 6), InputError);
+  EXPECT_THROW(checkpoint.LoadReference(2, 7, 6), InputError);
 }
 
 TEST(FitCheckpoint, FindsNothingWhereNothingIsKept) {
   const FitCheckpoint none("");
   none.Save(BodySequence{});
   EXPECT_FALSE(none.LoadStart(0));
-  EXPECT_FALSE(none.LoadReference(1, 1));
+  EXPECT_FALSE(none.LoadReference(1, 1, 1));
 }
 
 }  // namespace

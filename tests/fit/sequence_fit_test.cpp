@@ -35,11 +35,12 @@ class SequenceFitTest : public ::testing::Test {
     options.step.substeps = 1;
     Simulator simulator(MakeSetup(options, body_, garment_, PlainCloth()));
     FitScene scene{body_, garment_, &simulator, clouds_, 30.0, start_};
-    scene.reference = ClothReference{
-        body_.Vertices({}),
-        {garment_.placed, Points::Zero(3, garment_.num_vertices())}};
+    if (dressed_)
+      scene.reference = ClothReference{
+          body_.Vertices({}),
+          {garment_.placed, Points::Zero(3, garment_.num_vertices())}};
     scene.optimize = optimize;
-    return FitSequence(scene, {}, observer_);
+    return FitSequence(scene, options_, observer_);
   }
   void ExpectRefused(const std::string& message) const {
     EXPECT_THAT([&] { Fit(); }, ThrowsMessage<InputError>(message));
@@ -49,6 +50,8 @@ class SequenceFitTest : public ::testing::Test {
   Garment garment_;
   std::vector<Points> clouds_;
   BodySequence start_;
+  bool dressed_ = true;
+  FitOptions options_;
   FitObserver observer_;
 };
 
@@ -104,7 +107,7 @@ TEST_F(SequenceFitTest, WithoutOptimisationTheStartIsDressed) {
   const FitResult result = Fit();
   EXPECT_EQ(result.termination, Termination::kConverged);
   EXPECT_TRUE(result.usable());
-  EXPECT_FALSE(result.optimizer);
+  EXPECT_FALSE(result.optimizer());
   EXPECT_THAT(frames, ElementsAre(0, 1, 2));
   EXPECT_EQ(result.start.poses, start_.poses);
   EXPECT_NEAR(result.body.poses[2][1], 0.1, 1e-12);
@@ -124,6 +127,57 @@ TEST_F(SequenceFitTest, WhatIsStoppedEarlyIsUsable) {
   EXPECT_EQ(result.termination, Termination::kInterrupted);
   EXPECT_TRUE(result.usable());
   EXPECT_EQ(result.body.translations, start_.translations);
+}
+
+// Each time from the body found before; what ended at least is the result.
+TEST_F(SequenceFitTest, DressesAgainOnTheBodyFound) {
+  dressed_ = false;
+  for (Vector3d& t : start_.translations) t.x() = 0.02;
+  std::vector<double> starts;
+  long steps = 0;
+  observer_.iteration = [&](const FitIteration& i) {
+    EXPECT_GE(i.steps, steps);
+    steps = i.steps;
+    if (i.record.iteration == 0) starts.push_back(i.body.translations[0].x());
+    return true;
+  };
+  const FitResult result = Fit(true);
+  ASSERT_EQ(result.rounds.size(), 2u);
+  ASSERT_EQ(starts.size(), 2u);
+  EXPECT_EQ(starts[0], 0.02);
+  EXPECT_LT(std::abs(starts[1]), 0.01);
+  double least = result.rounds[0].optimizer->final_cost;
+  for (const FitRound& round : result.rounds) {
+    EXPECT_FALSE(round.dressing.tries.empty());
+    least = std::min(least, round.optimizer->final_cost);
+  }
+  EXPECT_EQ(result.optimizer()->final_cost, least);
+  EXPECT_EQ(result.iterations(),
+            result.rounds[0].optimizer->num_iterations() +
+                result.rounds[1].optimizer->num_iterations());
+  EXPECT_GT(result.counts().evaluations,
+            result.rounds[0].optimizer->counts.evaluations);
+  // The cloth is simulated from where that round's began.
+  EXPECT_NEAR(result.costs.cloth_to_points + result.costs.skin_to_points +
+                  result.costs.points_to_surface,
+              result.optimizer()->iterations.back().terms.data,
+              1e-6 * least);
+}
+
+TEST_F(SequenceFitTest, DressesOnceIfAskedOrNotNeeded) {
+  for (Vector3d& t : start_.translations) t.x() = 0.02;
+  EXPECT_EQ(Fit(true).rounds.size(), 1u);  // dressed already
+  dressed_ = false;
+  options_.dressings = 1;
+  EXPECT_EQ(Fit(true).rounds.size(), 1u);
+  // Who has not come to an end is told so, not begun anew.
+  options_.dressings = 2;
+  observer_.iteration = [](const FitIteration& i) {
+    return i.record.iteration < 1;
+  };
+  const FitResult stopped = Fit(true);
+  EXPECT_EQ(stopped.rounds.size(), 1u);
+  EXPECT_EQ(stopped.termination, Termination::kInterrupted);
 }
 
 // So far away that no number is left of the cloth.

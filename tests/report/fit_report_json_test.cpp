@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "invsim/report/fit_report.h"
+#include "report/fit_round.h"
 
 namespace invsim {
 namespace {
@@ -105,7 +106,7 @@ TEST(FitReportJson, HasTheShapeFound) {
 TEST(FitReportJson, TellsHowTheOptimisationWent) {
   FitReport report = FitWithFigures();
   EXPECT_FALSE(ParsedFit(report).contains("optimization"));
-  report.result.optimizer = SummaryWithFigures();
+  OnlyRound(&report.result).optimizer = SummaryWithFigures();
   nlohmann::json json = ParsedFit(report)["optimization"];
   EXPECT_EQ(json["termination"], "stalled");
   EXPECT_EQ(json["reason"], "The last steps failed.");
@@ -124,7 +125,7 @@ TEST(FitReportJson, TellsHowTheOptimisationWent) {
                             {"shape", 4},
                             {"pose", 8},
                             {"overlap", 16}}));
-  report.result.optimizer->iterations.clear();
+  OnlyRound(&report.result).optimizer->iterations.clear();
   json = ParsedFit(report)["optimization"];
   EXPECT_EQ(json["iterations"], 0);
   EXPECT_FALSE(json.contains("cost_by_term"));
@@ -133,7 +134,7 @@ TEST(FitReportJson, TellsHowTheOptimisationWent) {
 // The status is that of the fit, whose optimiser may have ended otherwise.
 TEST(FitReportJson, TheStatusIsOfTheWholeFit) {
   FitReport report = FitWithFigures();
-  report.result.optimizer = SummaryWithFigures();
+  OnlyRound(&report.result).optimizer = SummaryWithFigures();
   report.result.termination = Termination::kTimeLimit;
   const nlohmann::json json = ParsedFit(report);
   EXPECT_EQ(json["status"], "time limit");
@@ -206,9 +207,9 @@ TEST(FitReportJson, TellsEveryWayOfDressing) {
   DressingTry worn{DressingWay::kGrown, "", RelaxationResult(), 0.5};
   worn.relaxation->frames = 40;
   worn.relaxation->at_rest = true;
-  report.result.dressing.tries = {refused, worn};
-  report.result.dressing.worn = 1;
-  const nlohmann::json json = ParsedFit(report)["dressing"];
+  OnlyRound(&report.result).dressing.tries = {refused, worn};
+  OnlyRound(&report.result).dressing.worn = 1;
+  const nlohmann::json json = ParsedFit(report)["dressings"][0]["tries"];
   ASSERT_EQ(json.size(), 2u);
   EXPECT_EQ(
       json[0],
@@ -220,6 +221,25 @@ TEST(FitReportJson, TellsEveryWayOfDressing) {
                             {"frames", 40},
                             {"at_rest", true},
                             {"first_frames_cost", 0.5}}));
+}
+
+TEST(FitReportJson, TellsWhatEveryDressingGave) {
+  FitReport report = FitWithFigures();
+  OptimizerSummary other = SummaryWithFigures();
+  other.initial_cost = 15;
+  other.final_cost = 13;
+  report.result.rounds = {{{}, SummaryWithFigures()}, {{}, other}};
+  report.result.kept = 0;
+  const nlohmann::json json = ParsedFit(report);
+  ASSERT_EQ(json["dressings"].size(), 2u);
+  EXPECT_EQ(json["dressings"][0]["kept"], true);
+  EXPECT_EQ(json["dressings"][1]["kept"], false);
+  EXPECT_EQ(json["dressings"][1]["initial_cost"], 15);
+  EXPECT_EQ(json["dressings"][1]["final_cost"], 13);
+  EXPECT_EQ(json["dressings"][1]["iterations"], 2);
+  EXPECT_EQ(json["optimization"]["iterations"], 4);
+  EXPECT_EQ(json["optimization"]["evaluations"], 46);
+  EXPECT_EQ(json["optimization"]["final_cost"], 12);
 }
 
 TEST(FitReportJson, HasTheCostsByDistance) {
@@ -309,8 +329,8 @@ TEST(FitReportJson, TheTimesByPartAddUpToTheWhole) {
 // JSON has no word for what is not a number.
 TEST(FitReportJson, StaysJsonWhateverTheNumbersAre) {
   FitReport report = FitWithFigures();
-  report.result.optimizer = SummaryWithFigures();
-  report.result.optimizer->final_cost = NAN;
+  OnlyRound(&report.result).optimizer = SummaryWithFigures();
+  OnlyRound(&report.result).optimizer->final_cost = NAN;
   report.result.stats.step.worst_residual = INFINITY;
   const nlohmann::json json = ParsedFit(report);
   EXPECT_TRUE(json["optimization"]["final_cost"].is_null());

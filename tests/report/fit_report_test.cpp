@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/fit_round.h"
+
 namespace invsim {
 namespace {
 
@@ -19,7 +21,7 @@ FitReport ExampleFit() {
   report.body = "mannequin";
   report.result.termination = Termination::kConverged;
   report.result.simulated = true;
-  report.result.optimizer.emplace();
+  OnlyRound(&report.result).optimizer.emplace();
   report.result.body.shape.setZero();
   return report;
 }
@@ -40,6 +42,24 @@ TEST(FitReport, NamesContactsOfTheClothThatWereHeld) {
   EXPECT_THAT(FitText(report), HasSubstr("17 contacts found by sweeping"));
   const auto json = nlohmann::json::parse(FitJson(report));
   EXPECT_EQ(json["approximations"].size(), Approximations(report).size());
+}
+
+TEST(FitReport, ListsTheIterationsOfEveryDressing) {
+  FitReport report = ExampleFit();
+  OptimizerSummary summary;
+  summary.seconds = 10;
+  summary.iterations.resize(2);
+  summary.iterations[1].iteration = 1;
+  summary.iterations[1].seconds = 8;
+  report.result.rounds = {{{}, summary}, {{}, std::nullopt}, {{}, summary}};
+  const std::string csv = IterationsCsv(report);
+  EXPECT_THAT(csv, HasSubstr("dressing,iteration,successful,cost"));
+  EXPECT_THAT(csv, HasSubstr("\n1,1,1,"));
+  EXPECT_THAT(csv, HasSubstr("\n3,0,1,"));
+  EXPECT_THAT(csv, Not(HasSubstr("\n2,")));
+  const std::vector<Chart> charts = FitCharts(report);
+  ASSERT_FALSE(charts.empty());
+  EXPECT_EQ(charts[0].x, (std::vector<double>{0, 8, 10, 18}));
 }
 
 TEST(FitReport, NamesStepsThatMissed) {

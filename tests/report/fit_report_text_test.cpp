@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "invsim/report/fit_report.h"
+#include "report/fit_round.h"
 
 namespace invsim {
 namespace {
@@ -85,7 +86,7 @@ TEST(FitReportText, NamesTheInputs) {
 TEST(FitReportText, SaysHowTheOptimiserEnded) {
   FitReport report = FitInWords();
   EXPECT_THAT(FitText(report), Not(HasSubstr("Optimisation by")));
-  OptimizerSummary& s = report.result.optimizer.emplace();
+  OptimizerSummary& s = OnlyRound(&report.result).optimizer.emplace();
   s.termination = Termination::kStalled;
   s.reason = "The last steps failed.";
   s.initial_cost = 31;
@@ -126,7 +127,8 @@ TEST(FitReportText, SaysHowTheOptimiserEnded) {
 
 TEST(FitReportText, SaysWhatCouldNotBeEvaluated) {
   FitReport report = FitInWords();
-  ObjectiveCounts& counts = report.result.optimizer.emplace().counts;
+  ObjectiveCounts& counts =
+      OnlyRound(&report.result).optimizer.emplace().counts;
   const auto failed = [&] {
     return ValuesUnder(report, "Optimisation by", "  failed");
   };
@@ -138,7 +140,7 @@ TEST(FitReportText, SaysWhatCouldNotBeEvaluated) {
 
 TEST(FitReportText, SaysWhatWasRecalledOnlyIfAnythingWas) {
   FitReport report = FitInWords();
-  report.result.optimizer.emplace();
+  OnlyRound(&report.result).optimizer.emplace();
   const auto recalled = [&] {
     return ValuesUnder(report, "Optimisation by", "answers from checkpoint");
   };
@@ -208,10 +210,10 @@ TEST(FitReportText, TellsHowTheGarmentWasPutOn) {
   DressingTry worn{DressingWay::kGrown, "", RelaxationResult(), 0.5};
   worn.relaxation->frames = 40;
   worn.relaxation->rest_speed = 0.0125;
-  report.result.dressing.tries = {refused, worn};
-  report.result.dressing.worn = 1;
+  OnlyRound(&report.result).dressing.tries = {refused, worn};
+  OnlyRound(&report.result).dressing.worn = 1;
   const auto line = [&](const char* name) {
-    return ValuesUnder(report, "Initialisation", name);
+    return ValuesUnder(report, "Dressing 1", name);
   };
   EXPECT_THAT(line("garment carried"), ElementsAre("folds over"));
   EXPECT_THAT(line("garment grown"),
@@ -219,17 +221,46 @@ TEST(FitReportText, TellsHowTheGarmentWasPutOn) {
                           "first frames cost 0.5"));
   EXPECT_THAT(line("worn"), ElementsAre("grown"));
 
-  RelaxationResult& r = *report.result.dressing.tries[1].relaxation;
+  RelaxationResult& r = *OnlyRound(&report.result).dressing.tries[1].relaxation;
   r.at_rest = true;
   EXPECT_THAT(line("garment grown")[0], HasSubstr("40 frames, at rest ("));
   r.status = RunStatus::kFailed;
   r.stats.step.failed = 1;
   r.stats.step.failures = {{"not finite", 1}};
-  report.result.dressing.worn = -1;
+  OnlyRound(&report.result).dressing.worn = -1;
   EXPECT_THAT(
       line("garment grown"),
       ElementsAre("failed after 40 frames; failed steps: 1 (not finite)"));
   EXPECT_THAT(line("worn"), IsEmpty());
+}
+
+TEST(FitReportText, TellsWhatEveryDressingGave) {
+  FitReport report = FitInWords();
+  OptimizerSummary first, second;
+  first.initial_cost = 31;
+  first.final_cost = 12;
+  first.iterations.resize(3);
+  first.termination = Termination::kConverged;
+  first.counts.evaluations = 5;
+  second = first;
+  second.initial_cost = 14;
+  second.final_cost = 11;
+  second.iterations.resize(5);
+  report.result.rounds = {{{}, first}, {{}, second}};
+  report.result.kept = 1;
+  const auto line = [&](const char* part, const char* name) {
+    return ValuesUnder(report, part, name);
+  };
+  EXPECT_THAT(line("Dressing 1, on the body of the init", "fit from there"),
+              ElementsAre("cost 31 to 12 in 2 iterations, converged"));
+  EXPECT_THAT(line("Dressing 2, on the body found", "fit from there"),
+              ElementsAre("cost 14 to 11 in 4 iterations, converged"));
+  EXPECT_THAT(FitText(report), HasSubstr("\nKept: dressing 2\n"));
+  // Together.
+  EXPECT_THAT(Verdict(report), HasSubstr("cost 31 to 11 in 6 iterations"));
+  EXPECT_THAT(line("Optimisation by", "evaluations"), ElementsAre("10"));
+  report.result.kept = 0;
+  EXPECT_THAT(Verdict(report), HasSubstr("cost 31 to 12 in 6 iterations"));
 }
 
 TEST(FitReportText, SaysWhereTheBodyCameFrom) {
@@ -301,7 +332,7 @@ TEST(FitReportText, ListsTheTimesLargestFirst) {
 TEST(FitReportText, OfNothingDoneHasNoNumberThatIsNone) {
   FitReport report;
   report.result.body.shape.setZero();
-  report.result.optimizer.emplace();
+  OnlyRound(&report.result).optimizer.emplace();
   const std::string text = FitText(report);
   EXPECT_THAT(text, HasSubstr("Failed, not usable"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "report/fit_round.h"
+
 namespace invsim {
 namespace {
 
@@ -51,8 +53,8 @@ GalleryFitRow FitRow(const std::string& name) {
   o.result.termination = Termination::kStalled;
   o.result.simulated = true;
   o.result.reason = "The last steps failed.";
-  o.result.optimizer.emplace();
-  OptimizerSummary& s = *o.result.optimizer;
+  OnlyRound(&o.result).optimizer.emplace();
+  OptimizerSummary& s = *OnlyRound(&o.result).optimizer;
   s.initial_cost = 31;
   s.final_cost = 12.5;
   s.counts.evaluations = 23;
@@ -255,7 +257,7 @@ TEST(GalleryReport, WhatIsNotKnownIsADash) {
   report.rows[0].outcome.derivative = NAN;
   report.fits = {FitRow("data/holes"), FitRow("data/none")};
   report.fits[0].outcome.start_error = NAN;
-  report.fits[1].outcome.result.optimizer.reset();
+  report.fits[1].outcome.result.rounds[0].optimizer.reset();
   EXPECT_EQ(GalleryLine(report, "contact/corner")[6], "-");
   const std::string text = GalleryText(report);
   EXPECT_THAT(text, ContainsRegex("data/holes .* - > 5.2 "));

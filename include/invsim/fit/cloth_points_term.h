@@ -94,6 +94,9 @@ class ClothPointsTerm : public DataTerm {
                       std::vector<double>* costs) override;
   bool Linearize(std::vector<FrameBlock>* blocks) override;
 
+  // From now on the cloth of the first frame is led from there.
+  void set_reference(const ClothReference& reference);
+
   // The simulation of the point evaluated last.
   ClothRollout& rollout();
   const ClothRollout& rollout() const;

@@ -66,8 +66,10 @@ class ClothRollout {
   // are measured.
   void set_on_frame(FrameCallback on_frame) { on_frame_ = std::move(on_frame); }
 
-  // From now on frame 0 is led from where it is now.
-  void MoveReference();
+  // From now on frame 0 is led from there.
+  void set_reference(const ClothReference& reference) {
+    reference_ = reference;
+  }
 
   // Sums over all steps.
   const StepStats& stats() const { return stats_; }

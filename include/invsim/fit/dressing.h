@@ -41,7 +41,7 @@ struct DressingTry {
 
 struct Dressing {
   std::vector<DressingTry> tries;
-  int worn = -1;  // of the tries; -1: none came to an end
+  int worn = -1;  // of the tries; -1: none came to an end, or none was needed
   std::optional<ClothReference> reference;
 };
 

@@ -4,11 +4,13 @@
 
 // The files in which a fit leaves what it has (sequence_fit.h):
 //
-//   start.npz        the body of stage 1, AMASS layout
-//   reference.npz    body (V,3), x and v (N,3): the cloth at rest of stage 2
-//   evaluations.bin  the evaluations of stage 3 (remembered_term.h)
+//   start.npz          the body of stage 1, AMASS layout
+//   reference_K.npz    body (V,3), x and v (N,3): the cloth at rest of stage 2,
+//                      dressed for the K-th time
+//   evaluations_K.bin  the evaluations of stage 3 (remembered_term.h) from
+//                      there
 //
-// A file is there whole or not at all; evaluations.bin is there up to its last
+// A file is there whole or not at all; evaluations are there up to the last
 // whole record.
 
 #include <optional>
@@ -25,18 +27,21 @@ class FitCheckpoint {
   explicit FitCheckpoint(const std::string& folder) : folder_(folder) {}
 
   bool kept() const { return !folder_.empty(); }
-  std::string evaluations() const { return folder_ + "/evaluations.bin"; }
+  std::string Evaluations(int dressing) const;
 
   // Nothing if it is not there. Throws InputError if it is damaged or of
   // another sequence.
   std::optional<BodySequence> LoadStart(int num_frames) const;
-  std::optional<ClothReference> LoadReference(int body_vertices,
+  std::optional<ClothReference> LoadReference(int dressing,
+                                              int body_vertices,
                                               int cloth_vertices) const;
   // Throw InputError if a file cannot be written.
   void Save(const BodySequence& start) const;
-  void Save(const ClothReference& reference) const;
+  void Save(int dressing, const ClothReference& reference) const;
 
  private:
+  std::string Reference(int dressing) const;
+
   std::string folder_;
 };
 

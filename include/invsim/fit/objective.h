@@ -41,6 +41,8 @@ struct ObjectiveCounts {
   int abandoned = 0;       // evaluations that were given up as worse
   int failed = 0;          // evaluations that were impossible
   int no_derivative = 0;   // of these: there was a cost, but no derivative
+
+  void Add(const ObjectiveCounts& other);
 };
 
 struct CostTerms {

@@ -53,6 +53,10 @@ struct OptimizerSummary {
   std::string details;  // the solver's own full report, or empty
 
   bool usable() const { return termination != Termination::kFailed; }
+  // The first record is of the start.
+  int num_iterations() const {
+    return iterations.empty() ? 0 : static_cast<int>(iterations.size()) - 1;
+  }
 };
 
 // Called after every iteration, with the point kept in objective->x(). A false

@@ -13,6 +13,11 @@
 //   4. The garment is simulated once more at the solution, and the uncertainty
 //      of the unknowns is found there.
 //
+// The garment of stage 3 hangs as it was put on a body that was not known yet,
+// and friction remembers that. So stages 2 and 3 are gone through again, from
+// the body found, `dressings` times in all, and the round of least cost is
+// kept.
+//
 // With a checkpoint folder each stage leaves its result there, and every
 // evaluation of stage 3 (remembered_term.h). Called again with the same folder
 // the fit goes on where it was, and ends in the same result.
@@ -43,6 +48,7 @@ struct FitOptions {
   std::string optimizer = "lm";
   // The options of every optimiser by name, chosen or not.
   std::map<std::string, std::unique_ptr<Choice<Optimizer>>> optimizers;
+  int dressings = 2;  // at most
   bool uncertainty = true;
   double time_limit = 0;  // s, of all stages; 0: none
 };
@@ -56,7 +62,8 @@ struct FitScene {
   Simulator* simulator;
   const std::vector<Points>& clouds;  // one per frame, metres, y up
   double frames_per_second;
-  // Where to start instead of stages 1 and 2.
+  // Where to start instead of stages 1 and 2; with a reference nothing is
+  // dressed again.
   std::optional<BodySequence> start = {};
   std::optional<ClothReference> reference = {};
   // False: stages 1, 2 and 4 only.
@@ -69,7 +76,7 @@ struct FitScene {
 struct FitIteration {
   const IterationRecord& record;
   const BodySequence& body;
-  long steps;  // of simulation, since stage 3 began
+  long steps;  // of simulation, since stage 3 first began
 };
 
 // Told what goes on; any may be empty. Answers of false ask for a stop.
@@ -89,6 +96,13 @@ struct FitSeconds {
   }
 };
 
+// Stages 2 and 3, gone through once.
+struct FitRound {
+  Dressing dressing;
+  // None if there was nothing to optimise, or no time.
+  std::optional<OptimizerSummary> optimizer;
+};
+
 struct FitResult {
   // kConverged also where there was nothing to optimise; kTimeLimit and
   // kInterrupted whatever stage they met.
@@ -96,13 +110,11 @@ struct FitResult {
   std::string reason;      // one sentence
   bool simulated = false;  // whether there is cloth, that is stage 4 was done
 
-  // What the optimiser was given.
-  BodySequence start;
-  std::optional<ClothReference> reference;
+  BodySequence start;  // of the first round
   BodySequence body;
   std::optional<BodyInit> init;
-  Dressing dressing;  // nothing tried if a reference was given or kept
-  std::optional<OptimizerSummary> optimizer;
+  std::vector<FitRound> rounds;
+  int kept = -1;           // of the rounds: `body` is its; -1: nothing was worn
   ClothPointsCosts costs;  // at `body`
   ClothPointsStats stats;  // of stages 3 and 4
   std::optional<Uncertainty> uncertainty;
@@ -112,6 +124,12 @@ struct FitResult {
   bool usable() const {
     return simulated && termination != Termination::kFailed;
   }
+  // Of the round kept; null if there is none.
+  const OptimizerSummary* optimizer() const;
+  const ClothReference* reference() const;
+  // Of all rounds.
+  ObjectiveCounts counts() const;
+  int iterations() const;
 };
 
 // Throws InputError for points that cannot be a person's, a start that is not

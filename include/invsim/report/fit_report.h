@@ -15,7 +15,7 @@
 
 namespace invsim {
 
-inline constexpr int kFitSchemaVersion = 1;
+inline constexpr int kFitSchemaVersion = 2;
 
 struct FitReport {
   // As given: a path, or the name of something embedded.
@@ -56,7 +56,7 @@ std::string FitJson(const FitReport& report);
 // In plain words, with Ceres's own full report at the end, for solver.txt.
 std::string FitText(const FitReport& report);
 
-// A line per iteration, for iterations.csv.
+// A line per iteration of every dressing, for iterations.csv.
 std::string IterationsCsv(const FitReport& report);
 
 // The cost over time, and over the frames what the final simulation shows.

@@ -30,6 +30,10 @@
 
 namespace invsim {
 
+// Residuals are in units of a vertex's weight; it weighs its mass times this
+// where there is no gravity, too, m/s^2.
+inline constexpr double kStandardGravity = 9.81;
+
 struct StepOptions {
   int substeps = 4;
   // Linearisations per sub-step; 1 is the linearly implicit scheme.

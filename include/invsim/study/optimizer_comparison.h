@@ -37,8 +37,9 @@ double BodyError(const BodyModel& model,
 
 // Runs the optimisers in the order of `names` (names of Optimizers(); throws
 // UsageError for another). The start is found once, and so is the cloth at
-// rest on it. `observer.iteration` is told of each, `begin` of each optimiser
-// before it. Ends after the run in which a stop was asked for.
+// rest on it; for all to go the same way options->dressings is 1.
+// `observer.iteration` is told of each, `begin` of each optimiser before it.
+// Ends after the run in which a stop was asked for.
 std::vector<ComparisonRun> CompareOptimizers(
     FitScene scene,
     FitOptions* options,

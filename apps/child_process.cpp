@@ -2,26 +2,37 @@
 #include "child_process.h"
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 
 #include "invsim/base/error.h"
 #include "invsim/base/stopwatch.h"
-
-extern char** environ;
 
 namespace invsim {
 namespace {
 
 constexpr char kSelf[] = "/proc/self/exe";
 constexpr int kSignalled = 128;
+constexpr int kCannotStart = 127;
 
 double Seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+// Becomes the program; between fork and here only what is safe there. It ends
+// with its parent, whatever ended that: nobody would wait for it, and the next
+// run would find it still writing.
+[[noreturn]] void Become(char* const* argv, int output, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() == parent && dup2(output, 1) == 1 && dup2(output, 2) == 2)
+    execv(kSelf, argv);
+  _exit(kCannotStart);
 }
 
 }  // namespace
@@ -34,16 +45,16 @@ ChildResult RunChild(const std::vector<std::string>& arguments,
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(
-      &actions, 1, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, 1, 2);
+  const int output =
+      open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (output < 0)
+    throw InputError(log + ": cannot be written: " + std::strerror(errno));
   const Stopwatch watch;
-  pid_t child = 0;
-  const int failed =
-      posix_spawn(&child, kSelf, &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child == 0) Become(argv.data(), output, parent);
+  const int failed = child < 0 ? errno : 0;
+  close(output);
   if (failed != 0)
     throw InputError(log +
                      ": the run cannot be started: " + std::strerror(failed));
@@ -57,6 +68,10 @@ ChildResult RunChild(const std::vector<std::string>& arguments,
   result.exit_code =
       WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status);
   return result;
+}
+
+int SignalOf(int exit_code) {
+  return exit_code > kSignalled ? exit_code - kSignalled : 0;
 }
 
 }  // namespace invsim

@@ -16,10 +16,13 @@ struct ChildResult {
   double cpu_seconds = 0;  // user and system, all threads
 };
 
-// `arguments` without the program's name. What it prints goes to `log`.
-// Throws InputError if it cannot be started.
+// `arguments` without the program's name. What it prints goes to `log`. It does
+// not outlive this process. Throws InputError if it cannot be started.
 ChildResult RunChild(const std::vector<std::string>& arguments,
                      const std::string& log);
+
+// The signal that ended a child of this exit code, 0 if none did.
+int SignalOf(int exit_code);
 
 }  // namespace invsim
 

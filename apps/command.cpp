@@ -18,6 +18,16 @@ void KeyFlags::Apply(Config* config) const {
   }
 }
 
+void ReadOptions(Command* command,
+                 RunOptions* run,
+                 Config config,
+                 OptionTable* table) {
+  table->AddSection("run", run);
+  command->AddOptions(table);
+  command->TakeConfig(&config);
+  table->Read(config);
+}
+
 void Describe(OptionTable* table, RunOptions* o) {
   table->Add("seed",
              &o->seed,

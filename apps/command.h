@@ -81,6 +81,14 @@ class Command {
   virtual ExitCode Run(const CommandContext& context) = 0;
 };
 
+// Reads a configuration into the options of a command and those of every
+// command, all of which `table`, empty before, then lists. Throws UsageError
+// naming where what they do not take was written.
+void ReadOptions(Command* command,
+                 RunOptions* run,
+                 Config config,
+                 OptionTable* table);
+
 // One function per command_NAME.cpp.
 std::unique_ptr<Command> MakeCheckGradientCommand();
 std::unique_ptr<Command> MakeCompareCommand();

@@ -84,22 +84,28 @@ ExitCode CompareCommand::Run(const CommandContext& context) {
   const InterruptGuard interrupt;
   const FitData data = LoadFitData(input_, scene_.material, context);
   UseMaterialFriction(*context.options, data.material, &scene_);
-  DecideFitEffects(data, input_.frames_per_second, fit_.relaxation, &scene_);
+  // Refuses now what stage 1 need not be waited for.
+  ChosenEffects(scene_, data.garment, data.material);
   const auto truth = LoadTruth(static_cast<int>(data.clouds.size()));
-  Simulator simulator(
-      MakeSetup(scene_, data.body, data.garment, data.material));
   const RunFolder folder(context.out.empty() ? kCompareOut : context.out,
                          force_);
   fit_.dressings = 1;
   fit_.uncertainty = false;
   folder.Write("config.resolved.toml", ResolvedToml(*context.options));
 
-  FitScene scene{data.body,
-                 data.garment,
-                 &simulator,
-                 data.clouds,
-                 input_.frames_per_second,
-                 data.start};
+  std::unique_ptr<Simulator> simulator;  // one for all
+  FitScene scene{
+      data.body,
+      data.garment,
+      [&](const BodySequence& start) {
+        if (!simulator)
+          simulator = MakeFitSimulator(
+              data, start, input_.frames_per_second, fit_.relaxation, &scene_);
+        return simulator.get();
+      },
+      data.clouds,
+      input_.frames_per_second,
+      data.start};
   scene.seed = static_cast<std::uint64_t>(context.run.seed);
   std::string current;
   FitObserver observer;

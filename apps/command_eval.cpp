@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include "command.h"
 #include "evaluation_inputs.h"
 #include "invsim/base/error.h"
+#include "invsim/base/logging.h"
 #include "invsim/base/progress.h"
 #include "invsim/io/file.h"
 #include "invsim/report/evaluation_report.h"
@@ -26,8 +28,13 @@ constexpr char kBodyFile[] = "body.npz";
 // Folders in `folder` that hold a run, by name.
 std::vector<fs::path> RunsIn(const fs::path& folder) {
   std::vector<fs::path> runs;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (fs::exists(entry.path() / kBodyFile)) runs.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (fs::exists(entry.path() / kBodyFile))
+      runs.push_back(entry.path());
+    else if (entry.is_directory())
+      LOG(WARNING) << entry.path().string() << ": left out, holds no "
+                   << kBodyFile;
+  }
   std::sort(runs.begin(), runs.end());
   return runs;
 }
@@ -92,14 +99,23 @@ RunEvaluation EvalCommand::EvaluateRun(const std::string& run,
   return e;
 }
 
+// One that cannot be evaluated does not keep the others from being so; its
+// error is logged, and thrown if there is no other.
 std::vector<RunEvaluation> EvalCommand::EvaluateAll(
     const std::vector<fs::path>& runs, std::ostream* log) const {
   std::vector<RunEvaluation> all;
+  std::optional<InputError> first;
   for (const fs::path& run : runs) {
     const fs::path own = fs::path(truth_) / run.filename();
-    all.push_back(EvaluateRun(
-        run.string(), fs::is_directory(own) ? own.string() : truth_, log));
+    try {
+      all.push_back(EvaluateRun(
+          run.string(), fs::is_directory(own) ? own.string() : truth_, log));
+    } catch (const InputError& error) {
+      if (!first) first = error;
+      LOG(ERROR) << error.what() << "; left out";
+    }
   }
+  if (all.empty()) throw *first;
   return all;
 }
 
@@ -147,8 +163,9 @@ ExitCode EvalCommand::Run(const CommandContext& context) {
   if (runs.empty())
     throw InputError(run_ + ": neither it nor a folder in it holds a " +
                      kBodyFile + ", as runs do");
-  PrintAll(EvaluateAll(runs, log), context);
-  return ExitCode::kOk;
+  const std::vector<RunEvaluation> all = EvaluateAll(runs, log);
+  PrintAll(all, context);
+  return all.size() == runs.size() ? ExitCode::kOk : ExitCode::kInput;
 }
 
 }  // namespace

@@ -207,7 +207,6 @@ FitReport FitCommand::StartReport(const FitData& data) const {
   report.friction = scene_.contact.friction;
   report.thickness = scene_.contact.thickness;
   report.tolerance = scene_.step.friction.tolerance;
-  report.effects = scene_.decisions;
   report.optimizer = optimize_ ? fit_.optimizer : "none";
   report.loss = fit_.data.loss.name + " " +
                 ShortNumber(1000 * fit_.data.loss.scale) + " mm";
@@ -266,9 +265,8 @@ ExitCode FitCommand::Run(const CommandContext& context) {
   if (resume_) resumed = OpenFolder(context);
   const FitData data = LoadFitData(input_, scene_.material, context);
   UseMaterialFriction(*context.options, data.material, &scene_);
-  DecideFitEffects(data, input_.frames_per_second, fit_.relaxation, &scene_);
-  Simulator simulator(
-      MakeSetup(scene_, data.body, data.garment, data.material));
+  // Refuses now what stage 1 need not be waited for.
+  ChosenEffects(scene_, data.garment, data.material);
   const RunFolder folder = resumed ? *resumed : OpenFolder(context);
   folder.Write(kResolved, ResolvedToml(*context.options));
   FitReport report = StartReport(data);
@@ -279,18 +277,25 @@ ExitCode FitCommand::Run(const CommandContext& context) {
                      report.frames,
                      report.frames_per_second,
                      output_);
-  FitScene scene{data.body,
-                 data.garment,
-                 &simulator,
-                 data.clouds,
-                 input_.frames_per_second,
-                 data.start};
+  std::unique_ptr<Simulator> simulator;
+  FitScene scene{
+      data.body,
+      data.garment,
+      [&](const BodySequence& start) {
+        simulator = MakeFitSimulator(
+            data, start, input_.frames_per_second, fit_.relaxation, &scene_);
+        return simulator.get();
+      },
+      data.clouds,
+      input_.frames_per_second,
+      data.start};
   scene.optimize = optimize_;
   scene.seed = static_cast<std::uint64_t>(context.run.seed);
   scene.checkpoint = folder.Checkpoint();
   FitProgress progress(context.verbosity < 0, report.frames);
   report.result = FitSequence(scene, fit_, Observer(data, &progress, &writer));
   progress.End();
+  report.effects = scene_.decisions;
   report.seconds = watch.seconds();
   if (report.result.termination == Termination::kInterrupted) {
     std::cerr << "invsim: interrupted; go on with: invsim " << name()

@@ -91,6 +91,18 @@ std::vector<Item> PresetItems() {
   return items;
 }
 
+// Every option of every command that has any but those that all have.
+std::vector<Item> OptionItems() {
+  std::vector<Item> items;
+  for (const std::unique_ptr<Command>& command : AllCommands()) {
+    OptionTable table;
+    command->AddOptions(&table);
+    if (!table.options().empty())
+      items.push_back({command->name(), command->doc(), OptionsText(table)});
+  }
+  return items;
+}
+
 struct Kind {
   std::string name;
   std::vector<Item> (*items)();
@@ -103,7 +115,8 @@ const std::vector<Kind>& Kinds() {
                                           {"motions", MotionItems},
                                           {"losses", LossItems},
                                           {"optimizers", OptimizerItems},
-                                          {"presets", PresetItems}};
+                                          {"presets", PresetItems},
+                                          {"options", OptionItems}};
   return kinds;
 }
 

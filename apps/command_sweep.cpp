@@ -50,22 +50,51 @@ class SweepCommand : public Command {
   ExitCode Run(const CommandContext& context) override;
 
  private:
+  void CheckSettings() const;
+  void CheckKeys(const SweepRuns& runs, const SweepSetting& setting) const;
   bool RunAll(const SweepRuns& runs, std::ostream* log) const;
+  SweepReport KeysChosen() const;
   SweepReport Gather(const SweepRuns& runs) const;
+  SweepResult ResultOf(const SweepRuns& runs,
+                       const SweepSetting& setting,
+                       int repeats) const;
   std::vector<std::pair<std::string, double>> Compare(
       const SweepRuns& runs,
-      const LoadedReference* truth,
       const std::string& folder,
       SweepResult* result) const;
-  void Measure(const SweepRuns& runs,
-               const LoadedReference* truth,
-               SweepResult* result) const;
+  void Measure(const SweepRuns& runs, int repeats, SweepResult* result) const;
+  void ChooseError(SweepReport* report) const;
   void UseErrorAndCost(SweepReport* report) const;
 
   SweepOptions options_;
+  std::optional<LoadedReference> truth_;
   SweepPlan plan_;
   bool force_ = false;
 };
+
+// Reads all settings as their runs will, so that one that cannot be asked for
+// is known before anything runs.
+void SweepCommand::CheckSettings() const {
+  std::vector<SweepSetting> all = plan_.settings;
+  if (plan_.has_reference) all.push_back(plan_.reference);
+  for (const SweepSetting& setting : all) {
+    const std::unique_ptr<Command> command =
+        options_.command == "fit" ? MakeFitCommand() : MakeSimulateCommand();
+    RunOptions run;
+    OptionTable table;
+    ReadOptions(command.get(), &run, ConfigOf(plan_, setting), &table);
+  }
+}
+
+// That the results have the two keys is looked at in the first of them.
+void SweepCommand::CheckKeys(const SweepRuns& runs,
+                             const SweepSetting& setting) const {
+  SweepReport first = KeysChosen();
+  first.results.push_back(ResultOf(runs, setting, 1));
+  if (!first.results[0].usable) return;
+  ChooseError(&first);
+  UseErrorAndCost(&first);
+}
 
 // Every setting once, then every setting again. False if interrupted.
 bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
@@ -84,11 +113,15 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
                                                std::to_string(done.exit_code)));
     return true;
   };
-  if (force_) {
-    if (plan_.has_reference) runs.At(plan_.reference, 0).Forget();
-    for (const SweepSetting& setting : settings)
-      for (int k = 0; k < options_.repeats; ++k) runs.At(setting, k).Forget();
-  }
+  const auto clear = [&](const RecordedRun& earlier) {
+    if (force_)
+      earlier.Forget();
+    else
+      earlier.ForgetIfKilled();
+  };
+  if (plan_.has_reference) clear(runs.At(plan_.reference, 0));
+  for (const SweepSetting& setting : settings)
+    for (int k = 0; k < options_.repeats; ++k) clear(runs.At(setting, k));
   if (plan_.has_reference) {
     if (!run(plan_.reference, 0)) return false;
     const RecordedRun reference = runs.At(plan_.reference, 0);
@@ -98,19 +131,24 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
       throw InputError("the reference run failed: " + why);
     }
   }
+  bool checked = false;
   for (int repeat = 0; repeat < options_.repeats; ++repeat)
-    for (const SweepSetting& setting : settings)
+    for (const SweepSetting& setting : settings) {
       if (!run(setting, repeat)) return false;
+      if (checked || !runs.At(setting, repeat).Run().usable()) continue;
+      CheckKeys(runs, setting);
+      checked = true;
+    }
   return true;
 }
 
 // The numbers of a run that need a comparison.
 std::vector<std::pair<std::string, double>> SweepCommand::Compare(
     const SweepRuns& runs,
-    const LoadedReference* truth,
     const std::string& folder,
     SweepResult* result) const {
-  if (truth) return Evaluate(*truth->reference, LoadEstimate(folder)).Values();
+  if (truth_)
+    return Evaluate(*truth_->reference, LoadEstimate(folder)).Values();
   if (!plan_.has_reference) return {};
   const ClothDifference d =
       CompareClothFolders(folder, runs.At(plan_.reference, 0).folder());
@@ -125,16 +163,16 @@ std::vector<std::pair<std::string, double>> SweepCommand::Compare(
 
 // Of every repeat: rounding alone may lead two runs apart.
 void SweepCommand::Measure(const SweepRuns& runs,
-                           const LoadedReference* truth,
+                           int repeats,
                            SweepResult* result) const {
   std::vector<std::string> keys;
-  std::map<std::string, std::vector<double>> repeats;
+  std::map<std::string, std::vector<double>> values;
   try {
-    for (int k = 0; k < options_.repeats; ++k) {
+    for (int k = 0; k < repeats; ++k) {
       const std::string folder = runs.At(result->setting, k).folder();
-      for (const auto& [key, value] : Compare(runs, truth, folder, result)) {
-        if (!repeats.count(key)) keys.push_back(key);
-        repeats[key].push_back(value);
+      for (const auto& [key, value] : Compare(runs, folder, result)) {
+        if (!values.count(key)) keys.push_back(key);
+        values[key].push_back(value);
       }
     }
   } catch (const InputError& error) {
@@ -142,7 +180,7 @@ void SweepCommand::Measure(const SweepRuns& runs,
     result->failure = error.what();
     return;
   }
-  for (const std::string& key : keys) result->Add(key, repeats[key]);
+  for (const std::string& key : keys) result->Add(key, values[key]);
 }
 
 // Looks the two keys up in every result.
@@ -184,7 +222,15 @@ bool SameMesh(const SweepReport& report) {
   });
 }
 
-SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
+SweepResult SweepCommand::ResultOf(const SweepRuns& runs,
+                                   const SweepSetting& setting,
+                                   int repeats) const {
+  SweepResult result = runs.Result(setting, repeats, options_.report);
+  if (result.usable) Measure(runs, repeats, &result);
+  return result;
+}
+
+SweepReport SweepCommand::KeysChosen() const {
   SweepReport report;
   report.command = options_.command;
   report.tolerance = options_.tolerance;
@@ -194,19 +240,22 @@ SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
   report.cost_key = options_.cost;
   if (report.cost_key.empty())
     report.cost_key = options_.command == "fit" ? kWall : kCpuPerSecond;
-  std::optional<LoadedReference> truth;
-  if (!options_.truth.empty())
-    truth = LoadReference(options_.truth, options_.body);
-  for (const SweepSetting& setting : plan_.settings) {
-    SweepResult r = runs.Result(setting, options_.repeats, options_.report);
-    if (r.usable) Measure(runs, truth ? &*truth : nullptr, &r);
-    report.results.push_back(std::move(r));
-  }
-  report.error_key = options_.error;
-  if (report.error_key.empty())
-    report.error_key = !options_.truth.empty() ? kBodyError
-                       : SameMesh(report)      ? kClothRms
-                                               : kClothSurface;
+  return report;
+}
+
+// What counts as error, of results that are there.
+void SweepCommand::ChooseError(SweepReport* report) const {
+  report->error_key = !options_.error.empty()   ? options_.error
+                      : !options_.truth.empty() ? kBodyError
+                      : SameMesh(*report)       ? kClothRms
+                                                : kClothSurface;
+}
+
+SweepReport SweepCommand::Gather(const SweepRuns& runs) const {
+  SweepReport report = KeysChosen();
+  for (const SweepSetting& setting : plan_.settings)
+    report.results.push_back(ResultOf(runs, setting, options_.repeats));
+  ChooseError(&report);
   UseErrorAndCost(&report);
   return report;
 }
@@ -220,6 +269,9 @@ ExitCode SweepCommand::Run(const CommandContext& context) {
         "sweep.truth");
   if (fs::exists(out) && !fs::is_directory(out))
     throw UsageError(out.string() + ": is a file, expected a folder");
+  CheckSettings();
+  if (!options_.truth.empty())
+    truth_ = LoadReference(options_.truth, options_.body);
   std::vector<std::string> common = {options_.command,
                                      "--threads",
                                      std::to_string(context.run.threads),

@@ -58,7 +58,13 @@ class SynthCommand : public Command {
     table->AddSection("measurement", &sequence_.measurement);
   }
   void TakeConfig(Config* config) override {
-    if (what_ == kGrid) grid_.TakeConfig(config);
+    if (what_ != kGrid) return;
+    grid_.TakeConfig(config, [](const Config& sequence) {
+      SynthCommand command;
+      RunOptions run;
+      OptionTable table;
+      ReadOptions(&command, &run, sequence, &table);
+    });
   }
   ExitCode Run(const CommandContext& context) override;
 

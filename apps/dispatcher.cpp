@@ -46,11 +46,7 @@ class Subcommand {
     context_.verbosity = quiet_ ? -1 : std::min(verbose_, 2);
     InitLogging(program, context_.verbosity);
     OptionTable table;
-    table.AddSection("run", &context_.run);
-    command_->AddOptions(&table);
-    Config config = ReadConfig();
-    command_->TakeConfig(&config);
-    table.Read(config);
+    ReadOptions(command_, &context_.run, ReadConfig(), &table);
     context_.options = &table;
     SetThreads(context_.run.threads);
     return command_->Run(context_);

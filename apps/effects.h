@@ -5,6 +5,8 @@
 // Fills SceneOptions::decisions from what a command has read, and says in the
 // log (-v) why each effect is on or off.
 
+#include <memory>
+
 #include "fit_inputs.h"
 #include "invsim/sim/relaxation.h"
 #include "invsim/sim/scene.h"
@@ -16,11 +18,12 @@ void DecideSceneEffects(const RelaxationScene& scene,
                         const RelaxationOptions& relaxation,
                         SceneOptions* options);
 
-// From the motion to start from, if there is one, else from the points.
-void DecideFitEffects(const FitData& data,
-                      double frames_per_second,
-                      const RelaxationOptions& relaxation,
-                      SceneOptions* options);
+// Decides for the motion a fit starts from, and makes its simulator.
+std::unique_ptr<Simulator> MakeFitSimulator(const FitData& data,
+                                            const BodySequence& start,
+                                            double frames_per_second,
+                                            const RelaxationOptions& relaxation,
+                                            SceneOptions* options);
 
 }  // namespace invsim
 

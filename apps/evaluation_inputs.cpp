@@ -80,6 +80,7 @@ std::optional<ClothEstimate> ReadCloth(const fs::path& run, int frame) {
 LoadedReference LoadReference(const std::string& truth,
                               const std::string& body) {
   const fs::path given(truth);
+  if (!fs::exists(given)) throw InputError(truth + ": does not exist");
   const bool folder_given = fs::is_directory(given);
   const fs::path file = folder_given ? given / "truth.npz" : given;
   const fs::path folder = folder_given ? given : given.parent_path();

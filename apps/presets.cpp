@@ -13,8 +13,9 @@ constexpr char kKey[] = "fit.preset";
 const std::vector<Preset>& Presets() {
   static const std::vector<Preset> presets = {
       {"draft",
-       "a first look: two steps a frame, three iterations",
+       "a first look: two steps a frame, dressed once, three iterations",
        R"(step.substeps = 2
+fit.dressings = 1
 lm.iterations = 3
 )"},
       {"balanced", "the defaults", ""},

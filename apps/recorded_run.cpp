@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recorded_run.h"
 
+#include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -62,13 +64,23 @@ void RecordedRun::Forget() const {
     fs::remove_all(path_ + extension);
 }
 
+void RecordedRun::ForgetIfKilled() const {
+  const int signal =
+      SignalOf(ReadRecord(path_ + ".json").value("exit_code", 0));
+  if (signal == SIGKILL || signal == SIGTERM || signal == SIGHUP) Forget();
+}
+
 std::string RecordedRun::LastLine() const {
+  const int exit_code = ReadRecord(path_ + ".json").value("exit_code", 0);
+  if (const int signal = SignalOf(exit_code))
+    return "ended by signal " + std::to_string(signal) + " (" +
+           strsignal(signal) + ")";
   const std::string log = path_ + ".log";
   if (!fs::exists(log)) return "";
   std::istringstream text(ReadFileBytes(log));
   std::string last;
   for (std::string line; std::getline(text, line);)
-    if (!line.empty()) last = line;
+    if (!line.empty() && line != path_) last = line;
   return last;
 }
 

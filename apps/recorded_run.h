@@ -34,8 +34,11 @@ class RecordedRun {
 
   // Removes what is there of it.
   void Forget() const;
+  // The same if somebody ended it by a signal: that is no result.
+  void ForgetIfKilled() const;
 
-  // Of what it printed: the result, or why it failed.
+  // The result, or why it failed: the signal that ended it, or of what it
+  // printed the last line that is not the folder's name.
   std::string LastLine() const;
 
  private:

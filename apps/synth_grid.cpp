@@ -36,7 +36,8 @@ std::string NameOf(const SweepSetting& setting) {
 
 }  // namespace
 
-void SynthGrid::TakeConfig(Config* config) {
+void SynthGrid::TakeConfig(Config* config,
+                           const std::function<void(const Config&)>& check) {
   const auto& given = config->entries();
   if (std::none_of(given.begin(), given.end(), [](const auto& entry) {
         return entry.first.rfind("grid.", 0) == 0;
@@ -54,6 +55,9 @@ void SynthGrid::TakeConfig(Config* config) {
     common.insert(common.end(), {"--set", key + "=" + TomlText(entry.value)});
   std::set<std::string> names;
   for (const SweepSetting& setting : plan.settings) {
+    Config sequence = *config;
+    sequence.Merge(ConfigOf(plan, setting));
+    check(sequence);
     std::vector<std::string> arguments = common;
     for (const auto& [key, value] : setting.options)
       arguments.insert(arguments.end(), {"--set", key + "=" + value});

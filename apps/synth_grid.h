@@ -10,6 +10,7 @@
 //   synth.garment = ["tshirt", "dress"]
 //   synth.motion = ["walk_in_place", "turn"]
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <utility>
@@ -22,9 +23,11 @@ namespace invsim {
 
 class SynthGrid {
  public:
-  // Takes [grid] out of `config`; what is left is for every sequence. Throws
-  // UsageError if there is none, or two sequences have the same name.
-  void TakeConfig(Config* config);
+  // Takes [grid] out of `config`; what is left is for every sequence. `check`
+  // is told the options of each. Throws UsageError if there is none, or two
+  // sequences have the same name.
+  void TakeConfig(Config* config,
+                  const std::function<void(const Config&)>& check);
 
   // Makes those that are not there yet, writing a line for each to `results`
   // and progress to `log` unless it is null. One that fails does not keep the

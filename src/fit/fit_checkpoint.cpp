@@ -43,13 +43,14 @@ std::optional<BodySequence> FitCheckpoint::LoadStart(int num_frames) const {
 }
 
 std::optional<ClothReference> FitCheckpoint::LoadReference(
-    int dressing, int body_vertices, int cloth_vertices) const {
+    int dressing, const Points& body, int cloth_vertices) const {
   const std::string path = Reference(dressing);
   if (!kept() || !std::filesystem::exists(path)) return std::nullopt;
   const Npz npz = ReadNpz(path);
-  return ClothReference{
-      FromRows(npz, "body", body_vertices),
+  const ClothReference kept{
+      FromRows(npz, "body", static_cast<int>(body.cols())),
       {FromRows(npz, "x", cloth_vertices), FromRows(npz, "v", cloth_vertices)}};
+  return kept.body == body ? std::optional(kept) : std::nullopt;
 }
 
 void FitCheckpoint::Save(const BodySequence& start) const {
@@ -63,6 +64,7 @@ void FitCheckpoint::Save(const BodySequence& start) const {
 
 void FitCheckpoint::Save(int dressing, const ClothReference& reference) const {
   if (!kept()) return;
+  std::filesystem::remove(Evaluations(dressing));
   WriteNpz(Reference(dressing),
            {{"body", Rows(reference.body)},
             {"x", Rows(reference.cloth.x)},

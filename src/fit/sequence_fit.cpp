@@ -122,6 +122,7 @@ class Fitter {
   const FitObserver& observer_;
   FitCheckpoint checkpoint_;
   Stopwatch watch_;
+  Simulator* simulator_ = nullptr;         // after stage 1
   std::unique_ptr<ClothPointsTerm> term_;  // none before something was worn
   FitResult result_;
 };
@@ -153,7 +154,7 @@ void Fitter::FindStart() {
 std::unique_ptr<ClothPointsTerm> Fitter::Term(
     const std::vector<Points>& clouds, const ClothReference& reference) const {
   return std::make_unique<ClothPointsTerm>(scene_.body,
-                                           scene_.simulator,
+                                           simulator_,
                                            scene_.garment.faces,
                                            VertexAreas(scene_.garment),
                                            clouds,
@@ -177,8 +178,10 @@ double Fitter::StartingCost(const ClothReference& reference) const {
 Dressing Fitter::DressBody() {
   const int round = static_cast<int>(result_.rounds.size());
   Dressing known;
-  known.reference = checkpoint_.LoadReference(
-      round, scene_.body.num_vertices(), scene_.garment.num_vertices());
+  known.reference =
+      checkpoint_.LoadReference(round,
+                                scene_.body.Vertices(result_.body.Frame(0)),
+                                scene_.garment.num_vertices());
   if (!known.reference) known.reference = scene_.reference;
   if (known.reference) return known;
   const Stopwatch watch;
@@ -188,7 +191,7 @@ Dressing Fitter::DressBody() {
   Dressing dressing = Dress(
       {scene_.body, scene_.garment, motion, scene_.frames_per_second},
       options_.relaxation,
-      scene_.simulator,
+      simulator_,
       [this](const ClothReference& cloth) { return StartingCost(cloth); },
       observer_.relaxation);
   if (dressing.reference) checkpoint_.Save(round, *dressing.reference);
@@ -249,7 +252,9 @@ void Fitter::GoThroughRound() {
 
 bool Fitter::WantsAnotherRound() const {
   const std::optional<OptimizerSummary>& last = result_.rounds.back().optimizer;
-  return last && last->termination == Termination::kConverged &&
+  return last &&
+         (last->termination == Termination::kConverged ||
+          last->termination == Termination::kIterationLimit) &&
          !scene_.reference &&
          static_cast<int>(result_.rounds.size()) < options_.dressings;
 }
@@ -325,6 +330,7 @@ void Fitter::Conclude() {
 FitResult Fitter::Run() {
   FindStart();
   result_.body = result_.start;
+  simulator_ = scene_.make_simulator(result_.start);
   if (!InterruptRequested()) GoThroughRound();
   while (MayGoOn() && WantsAnotherRound()) GoThroughRound();
   if (result_.kept >= 0 && !InterruptRequested()) {

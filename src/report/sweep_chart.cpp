@@ -88,6 +88,56 @@ class Axis {
   double high_ = 0;
 };
 
+// "cloth rms [mm]" of cloth_rms_mm.
+std::string InWords(const std::string& key) {
+  if (key == "cpu_per_simulated_second")
+    return "processor time per second simulated [s]";
+  if (key == "cpu_seconds") return "processor time [s]";
+  if (key == "wall_seconds") return "wall clock [s]";
+  std::string words = key, unit;
+  for (const auto& [end, name] : {std::pair{"_mm", " [mm]"},
+                                  {"_seconds", " [s]"},
+                                  {"_m_per_s2", " [m/s2]"}})
+    if (words.ends_with(end)) {
+      words.resize(words.size() - std::string(end).size());
+      unit = name;
+    }
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words + unit;
+}
+
+// Places for words that do not cover each other.
+class Labels {
+ public:
+  // A little above (x, y) if that is free, else the nearest free height.
+  double Place(double x, double y, bool to_the_right, const std::string& text) {
+    const double width = kLetter * static_cast<double>(text.size());
+    Box box{to_the_right ? x : x - width, y, width};
+    for (int k = 0; k < kTries && Covered(box); ++k) {
+      const int away = k / 2 + 1;
+      box.y = y + (k % 2 == 0 ? -away : away) * kHeight;
+    }
+    taken_.push_back(box);
+    return box.y;
+  }
+
+ private:
+  static constexpr double kLetter = 6.5, kHeight = 13;
+  static constexpr int kTries = 12;
+  struct Box {
+    double x, y, width;
+  };
+
+  bool Covered(const Box& box) const {
+    return std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) {
+      return std::abs(box.y - other.y) < kHeight &&
+             box.x < other.x + other.width && other.x < box.x + box.width;
+    });
+  }
+
+  std::vector<Box> taken_;
+};
+
 class SweepDrawing {
  public:
   explicit SweepDrawing(const SweepReport& report)
@@ -143,8 +193,8 @@ class SweepDrawing {
     Text(0.5 * (kPlotLeft + kPlotRight),
          kPlotBottom + 38,
          "middle",
-         report_.cost_key);
-    Text(kPlotLeft, kPlotTop - 12, "start", report_.error_key);
+         InWords(report_.cost_key));
+    Text(kPlotLeft, kPlotTop - 12, "start", InWords(report_.error_key));
   }
 
   void Front() {
@@ -173,14 +223,17 @@ class SweepDrawing {
          << "</title></circle>\n";
     if (!r.pareto) return;
     const bool room = x < kPlotLeft + 0.75 * (kPlotRight - kPlotLeft);
-    Text(room ? x + 8 : x - 8,
-         y - 8,
+    const std::string words = SettingInWords(r.setting);
+    const double beside = room ? x + 8 : x - 8;
+    Text(beside,
+         labels_.Place(beside, y - 8, room, words),
          room ? "start" : "end",
-         SettingInWords(r.setting));
+         words);
   }
 
   const SweepReport& report_;
   Axis x_, y_;
+  Labels labels_;
   std::ostringstream out_;
 };
 

@@ -60,9 +60,9 @@ struct WorkColumn {
 };
 const std::vector<WorkColumn>& WorkColumns() {
   static const std::vector<WorkColumn> columns = {
-      {"factoris.", {"total.factorizations", "simulation.factorizations"}},
-      {"solves", {"total.solves", "simulation.solves"}},
-      {"queries", {"total.contact_queries", "simulation.contact_queries"}}};
+      {"factoris.", {"sequence.factorizations", "simulation.factorizations"}},
+      {"solves", {"sequence.solves", "simulation.solves"}},
+      {"queries", {"sequence.contact_queries", "simulation.contact_queries"}}};
   return columns;
 }
 

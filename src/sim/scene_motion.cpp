@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "invsim/geometry/kd_tree.h"
 #include "invsim/geometry/mesh.h"
 #include "invsim/geometry/surface_index.h"
 #include "invsim/sim/body_path.h"
@@ -12,7 +11,6 @@
 namespace invsim {
 namespace {
 
-constexpr double kPercentile = 0.99;  // of the points of a cloud
 constexpr int kMostLayerFrames = 30;  // in which layers are looked for
 
 // The points of the skin to which a garment is tied.
@@ -127,23 +125,6 @@ SceneMotion MeasureMotion(const RelaxationScene& scene,
   if (options.lead_in_seconds == 0) path.insert(path.begin(), path.front());
   m.acceleration = LargestAcceleration(path, m.frames_per_second);
   m.dressing_acceleration = DressingAcceleration(scene, options, anchors);
-  return m;
-}
-
-SceneMotion MeasureMotion(const std::vector<Points>& clouds,
-                          double frames_per_second) {
-  SceneMotion m;
-  m.frames_per_second = frames_per_second;
-  m.speed = 0;
-  for (size_t t = 1; t < clouds.size(); ++t) {
-    std::vector<double> squared;
-    for (const Neighbour& n : KdTree(clouds[t - 1]).NearestAll(clouds[t]))
-      squared.push_back(n.squared_distance);
-    const auto at =
-        squared.begin() + static_cast<int>(kPercentile * (squared.size() - 1));
-    std::nth_element(squared.begin(), at, squared.end());
-    m.speed = std::max(m.speed, std::sqrt(*at) * frames_per_second);
-  }
   return m;
 }
 

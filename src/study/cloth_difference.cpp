@@ -27,6 +27,12 @@ PlyMesh Cloth(const std::string& file) {
   return mesh;
 }
 
+// Vertices of other meshes are others, however many there are.
+bool SameMesh(const PlyMesh& a, const PlyMesh& b) {
+  return a.vertices.cols() == b.vertices.cols() &&
+         a.faces.cols() == b.faces.cols() && a.faces == b.faces;
+}
+
 double SurfaceDistance(const PlyMesh& a, const PlyMesh& b) {
   const SurfaceIndex of_a(a.vertices, a.faces), of_b(b.vertices, b.faces);
   return 0.5 * (DistancesToSurface(a.vertices, of_b).mean() +
@@ -58,7 +64,7 @@ ClothDifference CompareClothFolders(const std::string& run,
   for (size_t t = 0; t < a.files.size(); ++t) {
     const PlyMesh x = Cloth(a.files[t]), y = Cloth(b.files[t]);
     d.surface_mm.push_back(kMillimetres * SurfaceDistance(x, y));
-    if (x.vertices.cols() != y.vertices.cols()) continue;
+    if (!SameMesh(x, y)) continue;
     const VectorXd distance =
         kMillimetres * (x.vertices - y.vertices).colwise().norm();
     d.rms_mm.push_back(std::sqrt(distance.squaredNorm() /

@@ -103,8 +103,12 @@ HardFitOutcome RunHardFit(HardFit fit) {
     cloth_finite =
         cloth_finite && f.cloth.x.allFinite() && f.cloth.v.allFinite();
   };
-  FitScene scene{
-      body, fit.garment, &simulator, fit.clouds, kFitRate, fit.start};
+  FitScene scene{body,
+                 fit.garment,
+                 [&](const BodySequence&) { return &simulator; },
+                 fit.clouds,
+                 kFitRate,
+                 fit.start};
   scene.optimize = fit.optimize;
   outcome.result = FitSequence(scene, fit.fit, observer);
   if (fit.truth) {

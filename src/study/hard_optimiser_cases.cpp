@@ -85,8 +85,10 @@ HardFit Struck(Fault fault, int after, int times) {
   HardFit fit = PlainFit();
   const Fuse fuse(times);
   fit.fault = MakeFaultyEffect(fault, fuse);
-  fit.on_iteration = [=](const IterationRecord& record) {
-    if (record.iteration == after) fuse.SetOff();
+  fit.on_iteration = [=, done = false](const IterationRecord& record) mutable {
+    if (done || record.iteration != after) return;
+    fuse.SetOff();
+    done = true;  // not again after the next dressing
   };
   return fit;
 }

@@ -16,9 +16,13 @@ namespace {
 constexpr char kReference[] = "reference";
 constexpr char kPreset[] = "fit.preset";
 
-// "substeps=4" of ("step.substeps", "4").
+std::string LastPart(const std::string& key) {
+  return key.substr(key.rfind('.') + 1);
+}
+
+// "substeps=4" of ("substeps", "4"), fit to name a folder.
 std::string ShortName(const std::string& key, const std::string& value) {
-  std::string name = key.substr(key.rfind('.') + 1) + "=" + value;
+  const std::string name = key + "=" + value;
   std::string kept;
   for (const char c : name) {
     const bool good = std::isalnum(static_cast<unsigned char>(c)) || c == '=' ||
@@ -54,13 +58,14 @@ std::vector<std::string> Elements(const std::string& key,
 // Every combination of the old settings with the values of one more key.
 std::vector<SweepSetting> Times(const std::vector<SweepSetting>& old,
                                 const std::string& key,
+                                const std::string& called,
                                 const std::vector<std::string>& values) {
   std::vector<SweepSetting> all;
   for (const SweepSetting& s : old) {
     for (const std::string& value : values) {
       SweepSetting next = s;
       if (!next.name.empty()) next.name += ",";
-      next.name += ShortName(key, value);
+      next.name += ShortName(called, value);
       next.options.emplace_back(key, value);
       all.push_back(std::move(next));
     }
@@ -73,6 +78,19 @@ std::pair<std::string, std::string> Split(const std::string& key) {
   const size_t dot = key.find('.');
   if (dot == std::string::npos) return {key, ""};
   return {key.substr(0, dot), key.substr(dot + 1)};
+}
+
+// Where the option of a setting was written.
+std::string OriginOf(const SweepPlan& plan,
+                     const SweepSetting& setting,
+                     const std::string& key) {
+  for (const std::string& full : {"list." + setting.name + "." + key,
+                                  setting.name + "." + key,
+                                  "grid." + key}) {
+    const auto found = plan.origins.find(full);
+    if (found != plan.origins.end()) return found->second;
+  }
+  return setting.name;
 }
 
 void CheckNames(const SweepPlan& plan) {
@@ -133,6 +151,10 @@ SweepPlan TakeSweepPlan(Config* config) {
   std::map<std::string, SweepSetting> list;
   bool has_grid = false;
   Config rest;
+  // Options of the grid that end alike are called by their whole names.
+  std::map<std::string, int> alike;
+  for (const auto& [key, entry] : config->entries())
+    if (Split(key).first == "grid") ++alike[LastPart(key)];
   for (const auto& [key, entry] : config->entries()) {
     const auto [part, option] = Split(key);
     if (part == "base") {
@@ -143,7 +165,11 @@ SweepPlan TakeSweepPlan(Config* config) {
       plan.reference.options.emplace_back(option, TomlText(entry.value));
     } else if (part == "grid") {
       has_grid = true;
-      grid = Times(grid, option, Elements(option, entry));
+      const std::string last = LastPart(option);
+      grid = Times(grid,
+                   option,
+                   alike[last] > 1 ? option : last,
+                   Elements(option, entry));
     } else if (part == "list") {
       const auto [name, key_of_run] = Split(option);
       if (key_of_run.empty())
@@ -153,13 +179,24 @@ SweepPlan TakeSweepPlan(Config* config) {
       list[name].options.emplace_back(key_of_run, TomlText(entry.value));
     } else {
       rest.Set(key, TomlText(entry.value), entry.origin);
+      continue;
     }
+    plan.origins[key] = entry.origin;
   }
   if (has_grid) plan.settings = std::move(grid);
   for (auto& [name, setting] : list) plan.settings.push_back(setting);
   CheckNames(plan);
   *config = std::move(rest);
   return plan;
+}
+
+Config ConfigOf(const SweepPlan& plan, const SweepSetting& setting) {
+  Config config;
+  for (const auto& [key, value] : plan.base)
+    config.Set(key, value, plan.origins.at("base." + key));
+  for (const auto& [key, value] : setting.options)
+    config.Set(key, value, OriginOf(plan, setting, key));
+  return config;
 }
 
 SweepSpread SpreadOf(std::vector<double> values) {
@@ -208,18 +245,23 @@ std::string SweepVerdict(const std::vector<SweepResult>& results,
                          const std::string& cost) {
   const SweepResult* best = nullptr;
   for (const SweepResult& r : results)
-    if (r.usable && (!best || r.error < best->error)) best = &r;
+    if (r.usable &&
+        (!best || r.error < best->error ||
+         (r.error == best->error && r.cost.median < best->cost.median)))
+      best = &r;
   if (!best) return "no setting succeeded";
   const SweepResult* chosen = best;
   for (const SweepResult& r : results)
     if (r.usable && r.error <= (1 + tolerance) * best->error &&
+        r.cost.largest < best->cost.least &&
         r.cost.median < chosen->cost.median)
       chosen = &r;
   const std::string error = Number(best->error);
   const std::string name = SettingInWords(best->setting);
   if (chosen == best)
     return "best error " + error + ": " + name +
-           "; nothing cheaper comes within " + Number(100 * tolerance) + " %";
+           "; nothing surely cheaper comes within " + Number(100 * tolerance) +
+           " %";
   const double ratio = best->cost.median / chosen->cost.median;
   return "within " + Number(100 * tolerance) + " % of the best error (" +
          error + ", " + name + ") at 1/" + Number(ratio) + " of the " + cost +

@@ -120,6 +120,25 @@ TEST_F(EvalCommandTest, AFolderOfRunsGivesATableAndFiles) {
   EXPECT_EQ(Eval(arguments + " --force").exit_code, 0);
 }
 
+// The table of what can be evaluated, and what is missing in it by name.
+TEST_F(EvalCommandTest, ABrokenRunDoesNotKeepOthersFromTheTable) {
+  fs::create_directories(directory_ / "runs");
+  WriteRun("runs/good", Vector3d(0.01, 0, 0));
+  WriteRun("runs/broken", Vector3d(0, 0.002, 0));
+  WriteFileBytes((directory_ / "runs/broken/body.npz").string(), "PK");
+  fs::create_directories(directory_ / "runs/empty");
+  const std::string arguments = "--body mannequin --run " + In("runs");
+  const CommandResult result = Eval(arguments);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.out, HasSubstr("| vest |"));
+  EXPECT_THAT(result.err, HasSubstr("runs/broken/body.npz"));
+  EXPECT_THAT(result.err, HasSubstr("runs/empty: left out, holds no body.npz"));
+  fs::remove_all(directory_ / "runs/good");
+  const CommandResult none = Eval(arguments);
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_EQ(none.out, "");
+}
+
 TEST_F(EvalCommandTest, SaysWhatDoesNotFit) {
   const auto expect =
       [&](const std::string& arguments, int code, const std::string& message) {

@@ -72,6 +72,7 @@ class FitCommandTest : public ::testing::Test {
            " --set init.iterations=3 --set relaxation.settle_seconds=0.1"
            " --set relaxation.move_seconds=0.3"
            " --set relaxation.hold_seconds=0.1 --set lm.iterations=2"
+           " --set fit.dressings=1"
            // Of two steps none is to be refused as too long.
            " --set lm.radius=1 " +
            more;
@@ -101,12 +102,13 @@ TEST_F(FitCommandTest, PresetStandsBelowWhatIsSetByHand) {
                 HasSubstr("expected one of draft, balanced, precise"));
   // But for the number of iterations, which is set by hand too.
   std::string arguments = Arguments("--frames 1 --preset draft");
-  const std::string iterations = " --set lm.iterations=2";
+  const std::string iterations = " --set lm.iterations=2 --set fit.dressings=1";
   arguments.erase(arguments.find(iterations), iterations.size());
   const CommandResult result = RunCommand("init " + arguments);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(ReadFileBytes((out() / "config.resolved.toml").string()),
               AllOf(HasSubstr("iterations = 3  # preset draft"),
+                    HasSubstr("dressings = 1  # preset draft"),
                     HasSubstr("substeps = 1  # --set"),  // the preset says 2
                     HasSubstr("preset = \"draft\"  # --preset")));
 }
@@ -377,7 +379,8 @@ TEST_F(FitCommandTest, RepeatsItself) {
 TEST_F(FitCommandTest, GoesOnAfterBeingKilled) {
   const char* asked = std::getenv("INVSIM_KILLS");
   const int kills = asked ? std::atoi(asked) : 4;
-  const std::string arguments = Arguments("--frames 2");
+  // Also while it is dressed, and optimised, for the second time.
+  const std::string arguments = Arguments("--frames 2 --set fit.dressings=2");
   const Stopwatch watch;
   ASSERT_EQ(RunCommand("fit " + arguments).exit_code, kStoppedEarly);
   const double whole = watch.seconds();

@@ -48,6 +48,9 @@ TEST(ListCommandTest, NamesAllThereIs) {
   EXPECT_THAT(Names("motions"), IsSupersetOf({"walk_in_place", "squat"}));
   EXPECT_EQ(Names("presets"),
             (std::set<std::string>{"draft", "balanced", "precise"}));
+  EXPECT_THAT(Names("options"), IsSupersetOf({"fit", "simulate", "sweep"}));
+  EXPECT_THAT(RunCommand("list options").out,
+              HasSubstr("fit.dressings = 2  (an integer >= 1)"));
   EXPECT_EQ(Names("losses"),
             (std::set<std::string>{"trivial",
                                    "huber",

@@ -3,8 +3,12 @@
 // invsim sweep as a user runs it.
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "run_command.h"
 
@@ -55,7 +59,7 @@ TEST_F(SweepCommandTest, MeasuresEverySettingAndKeepsFailures) {
   const auto& fine = json["results"][1]["values"];
   EXPECT_GT(coarse["cloth_rms_mm"], 0.1);
   EXPECT_EQ(fine["cloth_rms_mm"], 0);  // the reference's own options
-  EXPECT_GT(fine["total.factorizations"], coarse["total.factorizations"]);
+  EXPECT_GT(fine["sequence.factorizations"], coarse["sequence.factorizations"]);
   EXPECT_GT(fine["cpu_per_simulated_second"], 0);
   EXPECT_EQ(json["results"][2]["exit_codes"][0], 3);
   EXPECT_THAT(json["results"][2]["failure"].get<std::string>(),
@@ -99,6 +103,81 @@ TEST_F(SweepCommandTest, OtherMeshesAreComparedAsSurfaces) {
   EXPECT_GT(finer["cloth_surface_mm"], same["cloth_surface_mm"]);
   EXPECT_LT(finer["cloth_surface_mm"], 50.0);
   EXPECT_FALSE(finer.contains("cloth_rms_mm"));
+}
+
+// Whatever ends the sweep, its run ends with it: nobody writes on into a folder
+// that the next sweep begins anew.
+TEST_F(SweepCommandTest, GoesOnAfterItWasKilled) {
+  std::string slow = kBase;
+  slow.replace(slow.find("frames = 2"), 10, "frames = 40");
+  const std::string toml = slow + "[grid]\nstep.substeps = [1, 2]\n";
+  const fs::path run = directory_ / "out/runs/reference/0/cloth/000002.ply";
+  const std::string config = (directory_ / "s.toml").string();
+  const std::string out = (directory_ / "out").string();
+  WriteFileBytes(config, toml);
+  const pid_t sweep = fork();
+  if (sweep == 0) {
+    execl(INVSIM_COMMAND,
+          "invsim",
+          "sweep",
+          "-q",
+          "--config",
+          config.c_str(),
+          "--out",
+          out.c_str(),
+          nullptr);
+    _exit(127);
+  }
+  while (!fs::exists(run) && waitpid(sweep, nullptr, WNOHANG) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(sweep, SIGKILL);
+  waitpid(sweep, nullptr, 0);
+  ASSERT_FALSE(fs::exists(directory_ / "out/runs/reference/0.json"));
+  const CommandResult again = Sweep(toml);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const nlohmann::json json = Json();
+  for (const auto& result : json["results"])
+    EXPECT_TRUE(result["usable"]) << result;
+}
+
+// Before anything is run, and where it was written.
+TEST_F(SweepCommandTest, RefusesWhatNoRunWouldTake) {
+  const auto refused = [&](const std::string& more, const char* message) {
+    const CommandResult result = Sweep(kBase + more);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_FALSE(fs::exists(directory_ / "out/runs"));
+  };
+  refused("[grid]\nstep.substep = [1]\n",
+          "s.toml:14:6: unknown option 'step.substep'; did you mean");
+  refused("[grid]\nstep.substeps = [0.5]\n", "expected an integer");
+  refused("[list.few]\nstep.substeps = \"four\"\n", "s.toml:14:6: step.subst");
+  const CommandResult truth =
+      Sweep("[sweep]\ntruth = \"nowhere\"\n[grid]\nstep.substeps = [1]\n");
+  EXPECT_EQ(truth.exit_code, 3);
+  EXPECT_THAT(truth.err, HasSubstr("nowhere: does not exist"));
+}
+
+// As soon as there is a result in which it is not.
+TEST_F(SweepCommandTest, RefusesAnErrorThatNoResultHas) {
+  std::string toml = kBase;
+  toml.replace(toml.find("[base]"), 6, "error = \"foo\"\n[base]");
+  const CommandResult result = Sweep(toml + "[grid]\nstep.substeps = [1, 2]\n");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("'foo'"));
+  EXPECT_TRUE(fs::exists(directory_ / "out/runs/substeps=1/0.json"));
+  EXPECT_FALSE(fs::exists(directory_ / "out/runs/substeps=2"));
+}
+
+// A simulation that fails says why; the line after that names its folder.
+TEST_F(SweepCommandTest, TellsWhyARunFailed) {
+  const CommandResult result =
+      Sweep(std::string(kBase) + "[grid]\nstep.substeps = [1]\n" +
+            "[list.diverges]\nscene.effects = [\"gravity\"]\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json failed = Json()["results"][1];
+  EXPECT_FALSE(failed["usable"]);
+  EXPECT_THAT(failed["failure"].get<std::string>(), HasSubstr("finite"));
 }
 
 TEST_F(SweepCommandTest, SaysWhatIsMissing) {

@@ -7,6 +7,7 @@
 
 #include "invsim/base/error.h"
 #include "invsim/base/random.h"
+#include "invsim/io/file.h"
 
 namespace invsim {
 namespace {
@@ -34,7 +35,7 @@ TEST(FitCheckpoint, GivesBackEveryBit) {
   checkpoint.Save(start);
   checkpoint.Save(2, reference);
   const auto start2 = checkpoint.LoadStart(4);
-  const auto reference2 = checkpoint.LoadReference(2, 7, 5);
+  const auto reference2 = checkpoint.LoadReference(2, reference.body, 5);
   ASSERT_TRUE(start2 && reference2);
   EXPECT_EQ(start2->shape, start.shape);
   EXPECT_EQ(start2->poses, start.poses);
@@ -42,17 +43,35 @@ TEST(FitCheckpoint, GivesBackEveryBit) {
   EXPECT_EQ(reference2->body, reference.body);
   EXPECT_EQ(reference2->cloth.x, reference.cloth.x);
   EXPECT_EQ(reference2->cloth.v, reference.cloth.v);
-  EXPECT_FALSE(checkpoint.LoadReference(3, 7, 5));
+  EXPECT_FALSE(checkpoint.LoadReference(3, reference.body, 5));
   EXPECT_NE(checkpoint.Evaluations(2), checkpoint.Evaluations(3));
   EXPECT_THROW(checkpoint.LoadStart(5), InputError);
-  EXPECT_THROW(checkpoint.LoadReference(2, 7, 6), InputError);
+  EXPECT_THROW(checkpoint.LoadReference(2, reference.body, 6), InputError);
+}
+
+// After more iterations than the first time the body found is another, and so
+// is all that came of it.
+TEST(FitCheckpoint, ForgetsWhatWasDressedOnAnotherBody) {
+  Random random(3);
+  const FitCheckpoint checkpoint(::testing::TempDir());
+  ClothReference reference{
+      RandomPoints(7, &random),
+      {RandomPoints(5, &random), RandomPoints(5, &random)}};
+  checkpoint.Save(1, reference);
+  WriteFileBytes(checkpoint.Evaluations(1), "of it");
+  ASSERT_TRUE(checkpoint.LoadReference(1, reference.body, 5));
+  reference.body(0, 3) += 1e-15;
+  EXPECT_FALSE(checkpoint.LoadReference(1, reference.body, 5));
+  checkpoint.Save(1, reference);
+  EXPECT_TRUE(checkpoint.LoadReference(1, reference.body, 5));
+  EXPECT_FALSE(std::filesystem::exists(checkpoint.Evaluations(1)));
 }
 
 TEST(FitCheckpoint, FindsNothingWhereNothingIsKept) {
   const FitCheckpoint none("");
   none.Save(BodySequence{});
   EXPECT_FALSE(none.LoadStart(0));
-  EXPECT_FALSE(none.LoadReference(1, 1, 1));
+  EXPECT_FALSE(none.LoadReference(1, Points::Zero(3, 1), 1));
 }
 
 }  // namespace

@@ -34,7 +34,15 @@ class SequenceFitTest : public ::testing::Test {
     SceneOptions options;
     options.step.substeps = 1;
     Simulator simulator(MakeSetup(options, body_, garment_, PlainCloth()));
-    FitScene scene{body_, garment_, &simulator, clouds_, 30.0, start_};
+    FitScene scene{body_,
+                   garment_,
+                   [&](const BodySequence& start) {
+                     EXPECT_EQ(start.num_frames(), 3);
+                     return &simulator;
+                   },
+                   clouds_,
+                   30.0,
+                   start_};
     if (dressed_)
       scene.reference = ClothReference{
           body_.Vertices({}),

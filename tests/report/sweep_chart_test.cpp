@@ -100,7 +100,7 @@ TEST(SweepChart, BothAxesAreLogarithmic) {
   // Lines are where their numbers say, and so is what the sweep is about.
   EXPECT_NEAR(chart.Text("10").x(), chart.Circle("fair").x(), kPixel);
   EXPECT_GT(chart.Text("seconds").y(), slow.y());
-  EXPECT_LT(chart.Text("error_mm").y(), fast.y());
+  EXPECT_LT(chart.Text("error \\[mm\\]").y(), fast.y());
 }
 
 TEST(SweepChart, TheFrontRunsFromCheapToDear) {
@@ -141,6 +141,32 @@ TEST(SweepChart, ASingleResultStandsInTheMiddle) {
 }
 
 // The setting that others are held against has none.
+// Where settings crowd, each name keeps a place of its own.
+TEST(SweepChart, NamesDoNotCoverEachOther) {
+  SweepReport report;
+  report.error_key = "cloth_rms_mm";
+  report.cost_key = "wall_seconds";
+  for (int k = 0; k < 4; ++k) {
+    SweepResult r;
+    r.setting.name = "setting_of_a_long_name_" + std::to_string(k);
+    r.usable = r.pareto = true;
+    r.error = 2 - 0.001 * k;
+    r.cost = {1 + 0.001 * k, 1 + 0.001 * k, 1 + 0.001 * k};
+    report.results.push_back(r);
+  }
+  const std::string svg = SweepSvg(report);
+  const std::regex label("y=\"([^\"]+)\" text-anchor=\"[a-z]+\">setting_of");
+  std::vector<double> heights;
+  for (std::sregex_iterator m(svg.begin(), svg.end(), label), end; m != end;
+       ++m)
+    heights.push_back(std::stod((*m)[1]));
+  ASSERT_EQ(heights.size(), 4u);
+  std::sort(heights.begin(), heights.end());
+  for (int k = 0; k < 3; ++k) EXPECT_GE(heights[k + 1] - heights[k], 12);
+  EXPECT_NE(svg.find(">cloth rms [mm]<"), std::string::npos);
+  EXPECT_NE(svg.find(">wall clock [s]<"), std::string::npos);
+}
+
 TEST(SweepChart, NoErrorIsAtTheLowerEdge) {
   const DrawnSweep chart({ResultOf("exact", 0, {8, 8, 8}),
                           ResultOf("good", 0.1, {4, 4, 4}),

@@ -98,16 +98,16 @@ TEST(SweepPage, TheCheapestComesFirstAndWhatFailedLast) {
 // The error is the first column, and only that.
 TEST(SweepPage, NumbersStandUnderTheirKeys) {
   SweepResult more = PageResult("more", 4, 2);
-  more.values.emplace_back("total.solves", 1201);
+  more.values.emplace_back("sequence.solves", 1201);
   SweepResult other = PageResult("other", 3, 7);
-  other.values = {{"total.steps", 60}, {"seconds", 7}, {"error_mm", 3}};
+  other.values = {{"sequence.steps", 60}, {"seconds", 7}, {"error_mm", 3}};
   const std::string page = SweepHtml(PageSweep({more, other}));
   EXPECT_THAT(Headings(page),
               ElementsAre("setting",
                           "error_<wbr>mm",
                           "seconds",
-                          "total.<wbr>solves",
-                          "total.<wbr>steps"));
+                          "sequence.<wbr>solves",
+                          "sequence.<wbr>steps"));
   EXPECT_THAT(CellsOfRow(page, "more"),
               ElementsAre("more", "4", "2", "1201", ""));
   EXPECT_THAT(CellsOfRow(page, "other"),

@@ -91,9 +91,9 @@ TEST(SweepReport, SpreadAndWorkStandBesideTheMedian) {
   auto& values = report.results[0].values;
   values.emplace_back("seconds_least", 7);
   values.emplace_back("seconds_largest", 9.5);
-  values.emplace_back("total.factorizations", 110);
-  values.emplace_back("total.solves", 1201);
-  values.emplace_back("total.contact_queries", 40000);
+  values.emplace_back("sequence.factorizations", 110);
+  values.emplace_back("sequence.solves", 1201);
+  values.emplace_back("sequence.contact_queries", 40000);
   const std::string page = SweepHtml(report);
   EXPECT_THAT(page, HasSubstr("<td>8 (7 to 9.5)</td>"));
   EXPECT_THAT(page, Not(HasSubstr("seconds_least")));

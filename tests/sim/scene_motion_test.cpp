@@ -67,18 +67,6 @@ TEST_F(MeasureMotionTest, DressingAcceleratesAsItsSmoothPath) {
   EXPECT_NEAR(Measure(motion).dressing_acceleration, most, 0.03 * most);
 }
 
-TEST_F(MeasureMotionTest, OfPointsIsTheStepFromCloudToCloud) {
-  Points plane(3, 400);
-  for (int i = 0; i < 400; ++i)
-    plane.col(i) = Vector3d(0.01 * (i % 20), 0, 0.01 * (i / 20));
-  Points raised = plane;
-  raised.row(1).array() += 0.004;
-  const SceneMotion m = MeasureMotion({plane, plane, raised}, kMotionRate);
-  EXPECT_NEAR(m.speed, 0.004 * kMotionRate, 1e-12);
-  EXPECT_TRUE(std::isinf(m.acceleration));
-  EXPECT_TRUE(m.layers_can_meet);
-}
-
 // A tight sheet on a plate cannot reach itself; once the plate is folded so
 // that its halves face each other 3 mm apart, it can.
 TEST(LayersCanMeet, WhereTheBodyBringsThemTogether) {

@@ -192,6 +192,8 @@ TEST_F(MetricsTest, AgreeWithAllPairs) {
     }
     EXPECT_NEAR(m.points_to_surface, 1000 * sum / 50, 1e-9);
   }
+  // The shape scales the ball by a tenth; poses do not count.
+  EXPECT_NEAR(metrics.body_tpose_v2v, 1000 * kBallRadius * 0.1 * 0.2, 1e-9);
 }
 
 TEST_F(MetricsTest, TheTruthScoresZero) {

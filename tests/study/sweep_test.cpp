@@ -105,6 +105,29 @@ SweepResult Result(const std::string& name,
   return r;
 }
 
+TEST(SweepPlan, TellsOptionsThatEndAlikeApart) {
+  const SweepPlan plan = PlanOf(
+      "[grid]\nstep.newton_iterations = [1]\n"
+      "friction.newton_iterations = [30]\nstep.substeps = [2]\n");
+  EXPECT_EQ(
+      plan.settings[0].name,
+      "friction.newton_iterations=30,step.newton_iterations=1,substeps=2");
+}
+
+TEST(SweepPlan, KnowsWhereEveryOptionWasWritten) {
+  const SweepPlan plan = PlanOf(
+      "[base]\na.b = 1\n[reference]\na.b = 2\n"
+      "[grid]\nc.d = [3]\n[list.x]\nc.d = 4\n");
+  EXPECT_EQ(ConfigOf(plan, plan.settings[0]).entries().at("a.b").origin,
+            "s.toml:2:3");
+  EXPECT_EQ(ConfigOf(plan, plan.settings[0]).entries().at("c.d").origin,
+            "s.toml:6:3");
+  EXPECT_EQ(ConfigOf(plan, plan.settings[1]).entries().at("c.d").origin,
+            "s.toml:8:3");
+  EXPECT_EQ(ConfigOf(plan, plan.reference).entries().at("a.b").origin,
+            "s.toml:4:3");
+}
+
 TEST(MarkPareto, KeepsWhatNothingBeats) {
   std::vector<SweepResult> results = {Result("cheap", 10, 1),
                                       Result("good", 1, 10),
@@ -130,8 +153,27 @@ TEST(SweepVerdict, NamesTheCheapestThatIsNearlyAsGood) {
             "within 5 % of the best error (1, best) at 1/6 of the cost: "
             "nearly");
   EXPECT_THAT(SweepVerdict(results, 0.05, "time"), HasSubstr("of the time: "));
-  EXPECT_THAT(SweepVerdict(results, 0.001), HasSubstr("nothing cheaper"));
+  EXPECT_THAT(SweepVerdict(results, 0.001),
+              HasSubstr("nothing surely cheaper"));
   EXPECT_EQ(SweepVerdict({results.back()}, 0.05), "no setting succeeded");
+}
+
+TEST(SweepVerdict, OfEqualErrorsTheCheapestIsTheBest) {
+  const std::vector<SweepResult> results = {Result("dear", 1, 60),
+                                            Result("cheap", 1, 40)};
+  EXPECT_EQ(SweepVerdict(results, 0.05),
+            "best error 1: cheap; nothing surely cheaper comes within 5 %");
+}
+
+// The machine's noise is no saving.
+TEST(SweepVerdict, CheaperIsWhatWasCheaperInEveryRepeat) {
+  std::vector<SweepResult> results = {Result("best", 1, 60),
+                                      Result("nearly", 1.01, 40)};
+  results[0].cost.least = 45;
+  results[1].cost.largest = 50;
+  EXPECT_THAT(SweepVerdict(results, 0.05), HasSubstr("nothing surely cheaper"));
+  results[1].cost.largest = 44;
+  EXPECT_THAT(SweepVerdict(results, 0.05), HasSubstr(": nearly"));
 }
 
 TEST(SweepVerdict, SpeaksOfAPresetAsItIsAskedFor) {

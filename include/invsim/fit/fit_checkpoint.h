@@ -29,13 +29,15 @@ class FitCheckpoint {
   bool kept() const { return !folder_.empty(); }
   std::string Evaluations(int dressing) const;
 
-  // Nothing if it is not there. Throws InputError if it is damaged or of
-  // another sequence.
+  // Nothing if it is not there, or was dressed on another body than `body`
+  // (after more iterations there is another). Throws InputError if it is
+  // damaged or of another sequence.
   std::optional<BodySequence> LoadStart(int num_frames) const;
   std::optional<ClothReference> LoadReference(int dressing,
-                                              int body_vertices,
+                                              const Points& body,
                                               int cloth_vertices) const;
-  // Throw InputError if a file cannot be written.
+  // Throw InputError if a file cannot be written. What was evaluated from an
+  // earlier reference of that dressing is removed.
   void Save(const BodySequence& start) const;
   void Save(int dressing, const ClothReference& reference) const;
 

@@ -56,10 +56,14 @@ struct FitOptions {
 // optimiser under its name.
 void Describe(OptionTable* table, FitOptions* options);
 
+// The simulator of a fit, which it must outlive. Asked for once stage 1 has
+// found how the body moves: by that one may choose the effects.
+using SimulatorMaker = std::function<Simulator*(const BodySequence& start)>;
+
 struct FitScene {
   const BodyModel& body;
   const Garment& garment;  // around the T-posed body of shape zero
-  Simulator* simulator;
+  SimulatorMaker make_simulator;
   const std::vector<Points>& clouds;  // one per frame, metres, y up
   double frames_per_second;
   // Where to start instead of stages 1 and 2; with a reference nothing is

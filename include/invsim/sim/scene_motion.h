@@ -41,13 +41,6 @@ SceneMotion MeasureMotion(const RelaxationScene& scene,
                           const RelaxationOptions& options,
                           double thickness);
 
-// From measured points of a motion not known yet. The speed is the 99th
-// percentile over the points of a frame of the distance to the nearest point
-// of the frame before, the largest over frames: with noise and the spacing of
-// points in it, so rather too large for what is slow. The rest is not known.
-SceneMotion MeasureMotion(const std::vector<Points>& clouds,
-                          double frames_per_second);
-
 // Whether two vertices of the garment more than `kFarEdges` mean edges apart
 // where it was made can come within `thickness` of each other: each stays
 // within its distance from the skin, `slack`, of the point it is tied to.

@@ -16,7 +16,7 @@ struct ClothDifference {
   std::vector<double> surface_mm;
   double mean_surface_mm() const;
 
-  // The rest only of equally many vertices; else `rms_mm` is empty.
+  // The rest only of the same faces; else `rms_mm` is empty.
   std::vector<double> rms_mm;  // per frame, over its vertices
   double mean_mm = 0;          // over all frames and vertices
   double max_mm = 0;

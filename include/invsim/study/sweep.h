@@ -26,6 +26,7 @@
 // setting again): what slows the machine for a while slows all settings alike.
 // Times are given as median, least and largest.
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,14 +48,15 @@ struct SweepOptions {
   std::string error = "";
   std::string cost = "";  // "": cpu_per_simulated_second; of a fit wall_seconds
   // Numbers of the runs' report.json to keep as results, those that there are.
-  std::vector<std::string> report = {"total.steps",
-                                     "total.steps_missed",
-                                     "total.steps_halved",
-                                     "total.factorizations",
-                                     "total.solves",
-                                     "total.contact_queries",
-                                     "total.newton_iterations",
-                                     "total.splitting_iterations",
+  // Of a simulation those of the sequence alone, as its processor time is.
+  std::vector<std::string> report = {"sequence.steps",
+                                     "sequence.steps_missed",
+                                     "sequence.steps_halved",
+                                     "sequence.factorizations",
+                                     "sequence.solves",
+                                     "sequence.contact_queries",
+                                     "sequence.newton_iterations",
+                                     "sequence.splitting_iterations",
                                      "optimization.iterations",
                                      "optimization.evaluations",
                                      "optimization.final_cost",
@@ -81,6 +83,8 @@ struct SweepPlan {
   SweepSetting reference;
   bool has_reference = false;
   std::vector<SweepSetting> settings;
+  // Where everything was written, by its key with the part it stood in.
+  std::map<std::string, std::string> origins;
 };
 
 // Takes the keys under base, reference, grid and list out of `config` and
@@ -88,6 +92,10 @@ struct SweepPlan {
 // written: a value of the grid that is no list, two settings of one name, no
 // setting at all.
 SweepPlan TakeSweepPlan(Config* config);
+
+// The options of a run: base and, over it, those of the setting, each with
+// where it was written.
+Config ConfigOf(const SweepPlan& plan, const SweepSetting& setting);
 
 // Median, least and largest of the repeats.
 struct SweepSpread {
@@ -122,7 +130,9 @@ void MarkPareto(std::vector<SweepResult>* results);
 std::string SettingInWords(const SweepSetting& setting);
 
 // "within 5 % of the best error (1.2, precise) at 1/6 of the time: --preset
-// balanced", or that nothing succeeded. `cost`: what the cost is called.
+// balanced", or that nothing succeeded. Of equal errors the cheapest is the
+// best; surely cheaper is what cost less in every repeat than the best in any.
+// `cost`: what the cost is called.
 std::string SweepVerdict(const std::vector<SweepResult>& results,
                          double tolerance,
                          const std::string& cost = "cost");

@@ -8,10 +8,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <thread>
 
 #include "invsim/base/error.h"
+#include "invsim/base/interrupt.h"
 #include "invsim/base/stopwatch.h"
 
 namespace invsim {
@@ -20,6 +23,7 @@ namespace {
 constexpr char kSelf[] = "/proc/self/exe";
 constexpr int kSignalled = 128;
 constexpr int kCannotStart = 127;
+constexpr std::chrono::milliseconds kBetweenLooks(5);
 
 double Seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
@@ -45,10 +49,13 @@ ChildResult RunChild(const std::vector<std::string>& arguments,
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
-  const int output =
+  const int file =
       open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (output < 0)
+  if (file < 0)
     throw InputError(log + ": cannot be written: " + std::strerror(errno));
+  // Not among the three that the child gets anew.
+  const int output = fcntl(file, F_DUPFD_CLOEXEC, 3);
+  close(file);
   const Stopwatch watch;
   const pid_t parent = getpid();
   const pid_t child = fork();
@@ -60,13 +67,20 @@ ChildResult RunChild(const std::vector<std::string>& arguments,
                      ": the run cannot be started: " + std::strerror(failed));
   int status = 0;
   rusage usage{};
-  while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
+  for (bool told = false; wait4(child, &status, WNOHANG, &usage) == 0;) {
+    if (InterruptRequested() && !told) {
+      kill(child, SIGTERM);
+      told = true;
+    }
+    std::this_thread::sleep_for(kBetweenLooks);
   }
   ChildResult result;
   result.wall_seconds = watch.seconds();
   result.cpu_seconds = Seconds(usage.ru_utime) + Seconds(usage.ru_stime);
   result.exit_code =
       WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status);
+  if (result.exit_code == kCannotStart)
+    throw InputError(log + ": the run cannot be started");
   return result;
 }
 

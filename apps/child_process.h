@@ -17,7 +17,8 @@ struct ChildResult {
 };
 
 // `arguments` without the program's name. What it prints goes to `log`. It does
-// not outlive this process. Throws InputError if it cannot be started.
+// not outlive this process, and is told to end when InterruptRequested().
+// Throws InputError if it cannot be started.
 ChildResult RunChild(const std::vector<std::string>& arguments,
                      const std::string& log);
 

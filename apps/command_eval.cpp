@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <optional>
 #include <vector>
 
 #include "command.h"
@@ -27,14 +26,19 @@ constexpr char kBodyFile[] = "body.npz";
 
 // Folders in `folder` that hold a run, by name.
 std::vector<fs::path> RunsIn(const fs::path& folder) {
-  std::vector<fs::path> runs;
+  std::vector<fs::path> runs, others;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (fs::exists(entry.path() / kBodyFile))
       runs.push_back(entry.path());
     else if (entry.is_directory())
-      LOG(WARNING) << entry.path().string() << ": left out, holds no "
-                   << kBodyFile;
+      others.push_back(entry.path());
   }
+  if (runs.empty())
+    throw InputError(folder.string() +
+                     ": neither it nor a folder in it holds a " + kBodyFile +
+                     ", as runs do");
+  for (const fs::path& other : others)
+    LOG(WARNING) << other.string() << ": left out, holds no " << kBodyFile;
   std::sort(runs.begin(), runs.end());
   return runs;
 }
@@ -99,23 +103,24 @@ RunEvaluation EvalCommand::EvaluateRun(const std::string& run,
   return e;
 }
 
-// One that cannot be evaluated does not keep the others from being so; its
-// error is logged, and thrown if there is no other.
+// One that cannot be evaluated does not keep the others from being so; it is
+// an error if none can.
 std::vector<RunEvaluation> EvalCommand::EvaluateAll(
     const std::vector<fs::path>& runs, std::ostream* log) const {
   std::vector<RunEvaluation> all;
-  std::optional<InputError> first;
+  std::vector<InputError> errors;
   for (const fs::path& run : runs) {
     const fs::path own = fs::path(truth_) / run.filename();
     try {
       all.push_back(EvaluateRun(
           run.string(), fs::is_directory(own) ? own.string() : truth_, log));
     } catch (const InputError& error) {
-      if (!first) first = error;
-      LOG(ERROR) << error.what() << "; left out";
+      errors.push_back(error);
     }
   }
-  if (all.empty()) throw *first;
+  if (all.empty()) throw errors.front();
+  for (const InputError& error : errors)
+    LOG(ERROR) << error.what() << "; left out";
   return all;
 }
 
@@ -160,9 +165,6 @@ ExitCode EvalCommand::Run(const CommandContext& context) {
     return ExitCode::kOk;
   }
   const std::vector<fs::path> runs = RunsIn(run_);
-  if (runs.empty())
-    throw InputError(run_ + ": neither it nor a folder in it holds a " +
-                     kBodyFile + ", as runs do");
   const std::vector<RunEvaluation> all = EvaluateAll(runs, log);
   PrintAll(all, context);
   return all.size() == runs.size() ? ExitCode::kOk : ExitCode::kInput;

@@ -76,6 +76,7 @@ class FitProgress {
   void Iteration(const IterationRecord& record, int most) {
     std::string note = "cost " + ShortNumber(record.cost);
     if (!record.successful) note += " (step refused)";
+    if (record.iteration == 0) progress_.reset();  // of the next dressing
     Begin("iterations", most + 1)->Advance(note);
   }
   void Frame() { Begin("final simulation", frames_)->Advance(); }
@@ -251,7 +252,7 @@ void FitCommand::Warn(const FitReport& report, const RunFolder& folder) const {
   const FitResult& r = report.result;
   const Dressing* worn = r.kept < 0 ? nullptr : &r.rounds[r.kept].dressing;
   if (worn && worn->worn >= 0 && !worn->tries[worn->worn].relaxation->at_rest)
-    LOG(WARNING) << "the cloth was not at rest on the first body";
+    LOG(WARNING) << "the cloth was not at rest when the fit began";
   if (r.stats.step.missed > 0)
     LOG(WARNING) << r.stats.step.missed
                  << " steps missed the contact tolerance; see "

@@ -51,7 +51,7 @@ class SweepCommand : public Command {
 
  private:
   void CheckSettings() const;
-  void CheckKeys(const SweepRuns& runs, const SweepSetting& setting) const;
+  bool CheckKeys(const SweepRuns& runs, const SweepSetting& setting) const;
   bool RunAll(const SweepRuns& runs, std::ostream* log) const;
   SweepReport KeysChosen() const;
   SweepReport Gather(const SweepRuns& runs) const;
@@ -86,14 +86,18 @@ void SweepCommand::CheckSettings() const {
   }
 }
 
-// That the results have the two keys is looked at in the first of them.
-void SweepCommand::CheckKeys(const SweepRuns& runs,
+// That the results have the two keys is looked at in the first of them; false
+// if there is nothing to look at. Of keys of a spread only all repeats know.
+bool SweepCommand::CheckKeys(const SweepRuns& runs,
                              const SweepSetting& setting) const {
   SweepReport first = KeysChosen();
   first.results.push_back(ResultOf(runs, setting, 1));
-  if (!first.results[0].usable) return;
+  if (!first.results[0].usable) return false;
   ChooseError(&first);
+  for (const std::string& key : {first.error_key, first.cost_key})
+    if (key.ends_with("_least") || key.ends_with("_largest")) return true;
   UseErrorAndCost(&first);
+  return true;
 }
 
 // Every setting once, then every setting again. False if interrupted.
@@ -135,9 +139,7 @@ bool SweepCommand::RunAll(const SweepRuns& runs, std::ostream* log) const {
   for (int repeat = 0; repeat < options_.repeats; ++repeat)
     for (const SweepSetting& setting : settings) {
       if (!run(setting, repeat)) return false;
-      if (checked || !runs.At(setting, repeat).Run().usable()) continue;
-      CheckKeys(runs, setting);
-      checked = true;
+      if (repeat == 0) checked = checked || CheckKeys(runs, setting);
     }
   return true;
 }

@@ -2,8 +2,8 @@
 #ifndef INVSIM_APPS_EFFECTS_H_
 #define INVSIM_APPS_EFFECTS_H_
 
-// Fills SceneOptions::decisions from what a command has read, and says in the
-// log (-v) why each effect is on or off.
+// Fills SceneOptions::decisions from what a command has read or found, and says
+// in the log (-v) why each effect is on or off.
 
 #include <memory>
 

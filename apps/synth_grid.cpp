@@ -83,7 +83,10 @@ ExitCode SynthGrid::Run(const std::string& out,
   bool complete = true;
   for (const auto& [name, arguments] : sequences_) {
     const RecordedRun run((fs::path(out) / name).string(), arguments);
-    if (force) run.Forget();
+    if (force)
+      run.Forget();
+    else
+      run.ForgetIfKilled();
     const RunOutcome outcome = run.Run();
     if (outcome.exit_code == static_cast<int>(ExitCode::kInterrupted) ||
         InterruptRequested())

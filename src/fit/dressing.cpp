@@ -53,6 +53,7 @@ Dressing Dress(const RelaxationScene& scene,
     const ClothReference reference = {scene.body.Vertices(scene.motion.front()),
                                       tried.relaxation->cloth};
     tried.cost = cost(reference);
+    if (InterruptRequested()) return {};  // nothing was compared
     if (dressing.reference &&
         !(tried.cost < dressing.tries[dressing.worn].cost))
       continue;

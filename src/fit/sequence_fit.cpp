@@ -101,7 +101,14 @@ class Fitter {
   bool TimeIsUp() const {
     return options_.time_limit > 0 && watch_.seconds() >= options_.time_limit;
   }
-  bool MayGoOn() const { return !InterruptRequested() && !TimeIsUp(); }
+  bool MayGoOn() const {
+    return !stopped_ && !InterruptRequested() && !TimeIsUp();
+  }
+  // An observer's answer.
+  bool Heed(bool go_on) {
+    stopped_ = stopped_ || !go_on;
+    return MayGoOn();
+  }
 
   void FindStart();
   void GoThroughRound();
@@ -122,6 +129,7 @@ class Fitter {
   const FitObserver& observer_;
   FitCheckpoint checkpoint_;
   Stopwatch watch_;
+  bool stopped_ = false;                   // as an observer asked
   Simulator* simulator_ = nullptr;         // after stage 1
   std::unique_ptr<ClothPointsTerm> term_;  // none before something was worn
   FitResult result_;
@@ -136,15 +144,15 @@ void Fitter::FindStart() {
   } else if (scene_.start) {
     result_.start = *scene_.start;
   } else {
-    result_.init = InitializeBody(
-        scene_.body,
-        scene_.garment,
-        scene_.clouds,
-        options_.init,
-        scene_.seed,
-        [this](const std::string& what) {
-          return (!observer_.init || observer_.init(what)) && MayGoOn();
-        });
+    result_.init =
+        InitializeBody(scene_.body,
+                       scene_.garment,
+                       scene_.clouds,
+                       options_.init,
+                       scene_.seed,
+                       [this](const std::string& what) {
+                         return Heed(!observer_.init || observer_.init(what));
+                       });
     result_.start = result_.init->body;
   }
   if (MayGoOn()) checkpoint_.Save(result_.start);
@@ -217,11 +225,11 @@ OptimizerSummary Fitter::Optimize(BodySequence* body) {
       remembered ? static_cast<DataTerm*>(remembered.get()) : term_.get(),
       body);
   const auto observer = [&](const IterationRecord& record) {
-    const bool wanted =
-        !observer_.iteration ||
-        observer_.iteration({record, *body, term_->rollout().stats().substeps});
     const bool written = !remembered || remembered->error().empty();
-    return wanted && written && MayGoOn();
+    return Heed(!observer_.iteration ||
+                observer_.iteration(
+                    {record, *body, term_->rollout().stats().substeps})) &&
+           written;
   };
   OptimizerSummary summary = options_.optimizers.at(options_.optimizer)
                                  ->Make()
@@ -252,7 +260,9 @@ void Fitter::GoThroughRound() {
 
 bool Fitter::WantsAnotherRound() const {
   const std::optional<OptimizerSummary>& last = result_.rounds.back().optimizer;
-  return last &&
+  // From a body that was not found anew it would be the same again.
+  const bool anew = result_.kept + 1 == static_cast<int>(result_.rounds.size());
+  return last && anew &&
          (last->termination == Termination::kConverged ||
           last->termination == Termination::kIterationLimit) &&
          !scene_.reference &&
@@ -287,10 +297,15 @@ void Fitter::Simulate() {
 
 // Whether something was left out because of a wish to stop.
 bool Fitter::CutShort() const {
-  if (!result_.optimizer()) return scene_.optimize || TimeIsUp();
-  const std::optional<OptimizerSummary>& last = result_.rounds.back().optimizer;
-  return WantsAnotherRound() ||
-         (last && last->termination == Termination::kInterrupted);
+  const OptimizerSummary* optimizer = result_.optimizer();
+  if (!optimizer) return scene_.optimize || !MayGoOn();
+  const FitRound& last = result_.rounds.back();
+  const bool begun = last.optimizer || !last.dressing.reference;
+  const bool ended = !last.optimizer ||
+                     last.optimizer->termination != Termination::kInterrupted;
+  const bool uncertain = options_.uncertainty && optimizer->usable();
+  return !begun || !ended || WantsAnotherRound() ||
+         (uncertain && !result_.uncertainty);
 }
 
 void Fitter::Conclude() {
@@ -320,10 +335,10 @@ void Fitter::Conclude() {
     result_.termination = Termination::kInterrupted;
     result_.reason = "Interrupted.";
   } else if (result_.simulated && CutShort()) {
-    const bool late = TimeIsUp();
     result_.termination =
-        late ? Termination::kTimeLimit : Termination::kInterrupted;
-    result_.reason = late ? "The time limit was reached." : "Stopped as asked.";
+        stopped_ ? Termination::kInterrupted : Termination::kTimeLimit;
+    result_.reason =
+        stopped_ ? "Stopped as asked." : "The time limit was reached.";
   }
 }
 
@@ -354,6 +369,11 @@ const OptimizerSummary* FitResult::optimizer() const {
 
 const ClothReference* FitResult::reference() const {
   return kept < 0 ? nullptr : &*rounds[kept].dressing.reference;
+}
+
+double FitResult::initial_cost() const {
+  if (rounds.empty() || !rounds.front().optimizer) return 0;
+  return rounds.front().optimizer->initial_cost;
 }
 
 ObjectiveCounts FitResult::counts() const {

@@ -59,10 +59,10 @@ std::string Verdict(const FitReport& report) {
   std::string name = Name(r.termination);
   name[0] = static_cast<char>(std::toupper(name[0]));
   out << name << ", " << Usable(report);
-  if (r.optimizer() && r.rounds.front().optimizer->initial_cost > 0)
-    out << ": cost " << ShortNumber(r.rounds.front().optimizer->initial_cost)
-        << " to " << ShortNumber(r.optimizer()->final_cost) << " in "
-        << r.iterations() << " iterations";
+  if (r.optimizer() && r.initial_cost() > 0)
+    out << ": cost " << ShortNumber(r.initial_cost()) << " to "
+        << ShortNumber(r.optimizer()->final_cost) << " in " << r.iterations()
+        << " iterations";
   out << ". " << r.reason;
   const FrameStats last = Simulated(report);
   if (r.simulated)

@@ -114,7 +114,7 @@ Json OptimizationJson(const FitResult& r) {
   json["termination"] = Name(s.termination);
   json["reason"] = s.reason;
   json["iterations"] = r.iterations();
-  json["initial_cost"] = r.rounds.front().optimizer->initial_cost;
+  json["initial_cost"] = r.initial_cost();
   json["final_cost"] = s.final_cost;
   json["evaluations"] = counts.evaluations;
   json["evaluations_abandoned"] = counts.abandoned;

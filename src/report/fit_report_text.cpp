@@ -116,8 +116,7 @@ void OptimizerText(const FitReport& report, std::ostream* out) {
   Lines lines(out);
   lines.Add("ended", std::string(Name(s.termination)) + ": " + s.reason)
       .Add("cost",
-           ShortNumber(r.rounds.front().optimizer->initial_cost) + " to " +
-               ShortNumber(s.final_cost))
+           ShortNumber(r.initial_cost()) + " to " + ShortNumber(s.final_cost))
       .Add("iterations", std::to_string(r.iterations()))
       .Add("evaluations", std::to_string(counts.evaluations))
       .Add("  given up as worse", std::to_string(counts.abandoned))

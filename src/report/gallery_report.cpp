@@ -89,8 +89,9 @@ std::string TextRow(const GalleryFitRow& row) {
                 o.refusal.c_str());
   const OptimizerSummary s =
       o.result.optimizer() ? *o.result.optimizer() : OptimizerSummary();
-  const std::string cost =
-      s.iterations.empty() ? "-" : FromTo(s.initial_cost, s.final_cost);
+  const std::string cost = s.iterations.empty()
+                               ? "-"
+                               : FromTo(o.result.initial_cost(), s.final_cost);
   const std::string error = FromTo(1e3 * o.start_error, 1e3 * o.body_error);
   return Line("%-31s %-7s %-15s %19s %5d %6d %13s %7.2f\n",
               row.hard.name.c_str(),
@@ -98,7 +99,7 @@ std::string TextRow(const GalleryFitRow& row) {
               Name(o.result.termination),
               cost.c_str(),
               o.result.counts().evaluations,
-              s.counts.failed,
+              o.result.counts().failed,
               error.c_str(),
               o.seconds);
 }
@@ -145,11 +146,11 @@ Json JsonRow(const GalleryFitRow& row) {
   json["reason"] = o.result.reason;
   if (o.result.optimizer()) {
     const OptimizerSummary& s = *o.result.optimizer();
-    json["initial_cost"] = NumberOrNull(s.initial_cost);
+    json["initial_cost"] = NumberOrNull(o.result.initial_cost());
     json["final_cost"] = NumberOrNull(s.final_cost);
     json["evaluations"] = o.result.counts().evaluations;
-    json["evaluations_failed"] = s.counts.failed;
-    json["evaluations_without_derivative"] = s.counts.no_derivative;
+    json["evaluations_failed"] = o.result.counts().failed;
+    json["evaluations_without_derivative"] = o.result.counts().no_derivative;
   }
   json["steps_failed_because"] = o.result.stats.step.failures;
   json["substeps"] = o.result.stats.step.substeps;

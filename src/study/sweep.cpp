@@ -157,6 +157,10 @@ SweepPlan TakeSweepPlan(Config* config) {
     if (Split(key).first == "grid") ++alike[LastPart(key)];
   for (const auto& [key, entry] : config->entries()) {
     const auto [part, option] = Split(key);
+    const bool ours = part == "base" || part == kReference || part == "grid";
+    if (ours && option.empty())
+      throw UsageError(entry.origin + ": " + key + " is a section; expected " +
+                       key + ".OPTION");
     if (part == "base") {
       plan.base.emplace_back(option, TomlText(entry.value));
     } else if (part == kReference) {

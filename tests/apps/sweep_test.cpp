@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -105,6 +106,21 @@ TEST_F(SweepCommandTest, OtherMeshesAreComparedAsSurfaces) {
   EXPECT_FALSE(finer.contains("cloth_rms_mm"));
 }
 
+std::string ChildOf(pid_t parent) {
+  const std::string pid = std::to_string(parent);
+  std::ifstream children("/proc/" + pid + "/task/" + pid + "/children");
+  std::string child;
+  children >> child;
+  return child;
+}
+
+// Whether there is such a process; one that nobody waited for is none.
+bool Runs(const std::string& pid) {
+  std::ifstream stat("/proc/" + pid + "/stat");
+  std::string number, name, state;
+  return stat >> number >> name >> state && state != "Z";
+}
+
 // Whatever ends the sweep, its run ends with it: nobody writes on into a folder
 // that the next sweep begins anew.
 TEST_F(SweepCommandTest, GoesOnAfterItWasKilled) {
@@ -130,8 +146,13 @@ TEST_F(SweepCommandTest, GoesOnAfterItWasKilled) {
   }
   while (!fs::exists(run) && waitpid(sweep, nullptr, WNOHANG) == 0)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const std::string child = ChildOf(sweep);
+  EXPECT_TRUE(Runs(child));
   kill(sweep, SIGKILL);
   waitpid(sweep, nullptr, 0);
+  for (int k = 0; k < 200 && Runs(child); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_FALSE(Runs(child));
   ASSERT_FALSE(fs::exists(directory_ / "out/runs/reference/0.json"));
   const CommandResult again = Sweep(toml);
   ASSERT_EQ(again.exit_code, 0) << again.err;

@@ -99,14 +99,20 @@ TEST_F(DressingTest, OfTheShapeTheGarmentWasMadeForIsTriedOnce) {
   EXPECT_EQ(dressing.worn, 0);
 }
 
+// While the one way is judged or the other: nothing is worn by half a
+// judgement.
 TEST_F(DressingTest, StopsWhenInterrupted) {
-  const InterruptedTest guard;
-  const Dressing dressing = DressBy([](const ClothReference&) {
-    std::raise(SIGINT);
-    return 1.0;
-  });
-  EXPECT_FALSE(dressing.reference);
-  EXPECT_EQ(dressing.worn, -1);
+  for (const int stopped : {0, 1}) {
+    const InterruptedTest guard;
+    int judged = 0;
+    const Dressing dressing = DressBy([&](const ClothReference&) {
+      if (judged++ == stopped) std::raise(SIGINT);
+      return 1.0;
+    });
+    EXPECT_EQ(judged, stopped + 1);
+    EXPECT_FALSE(dressing.reference);
+    EXPECT_EQ(dressing.worn, -1);
+  }
 }
 
 }  // namespace

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
 #include <limits>
 #include <numbers>
+#include <thread>
 
 #include "invsim/base/error.h"
 #include "invsim/sim/scene.h"
@@ -48,6 +51,7 @@ class SequenceFitTest : public ::testing::Test {
           body_.Vertices({}),
           {garment_.placed, Points::Zero(3, garment_.num_vertices())}};
     scene.optimize = optimize;
+    scene.checkpoint = checkpoint_;
     return FitSequence(scene, options_, observer_);
   }
   void ExpectRefused(const std::string& message) const {
@@ -59,6 +63,7 @@ class SequenceFitTest : public ::testing::Test {
   std::vector<Points> clouds_;
   BodySequence start_;
   bool dressed_ = true;
+  std::string checkpoint_;
   FitOptions options_;
   FitObserver observer_;
 };
@@ -186,6 +191,57 @@ TEST_F(SequenceFitTest, DressesOnceIfAskedOrNotNeeded) {
   const FitResult stopped = Fit(true);
   EXPECT_EQ(stopped.rounds.size(), 1u);
   EXPECT_EQ(stopped.termination, Termination::kInterrupted);
+}
+
+// More iterations lead to another body, on which all after it is done anew:
+// the result is that of a fit that had them from the start.
+TEST_F(SequenceFitTest, MoreIterationsAreAsIfThereHadBeenMoreAtOnce) {
+  dressed_ = false;
+  for (Vector3d& t : start_.translations) t.x() = 0.02;
+  const auto fit = [&](int iterations, const std::string& folder) {
+    OptionTable table;
+    Describe(&table, &options_);
+    Config config;
+    config.Set("lm.iterations", std::to_string(iterations), "here");
+    table.Read(config);
+    checkpoint_ = folder;
+    return Fit(true);
+  };
+  const std::filesystem::path root =
+      std::filesystem::path(::testing::TempDir()) / "invsim_more_iterations";
+  std::filesystem::remove_all(root);
+  for (const char* name : {"a", "b"})
+    std::filesystem::create_directories(root / name);
+  const FitResult little = fit(1, root / "a");
+  ASSERT_EQ(little.rounds.size(), 2u);
+  const FitResult more = fit(4, root / "a");
+  const FitResult at_once = fit(4, root / "b");
+  EXPECT_GT(more.recalled, 0);
+  EXPECT_NE(more.body.translations, little.body.translations);
+  EXPECT_EQ(more.kept, at_once.kept);
+  EXPECT_EQ(more.body.translations, at_once.body.translations);
+  EXPECT_EQ(more.body.poses, at_once.body.poses);
+  EXPECT_EQ(more.optimizer()->final_cost, at_once.optimizer()->final_cost);
+  std::filesystem::remove_all(root);
+}
+
+// The time is over while the garment is put on again.
+TEST_F(SequenceFitTest, ATimeLimitInTheNextDressingIsReported) {
+  dressed_ = false;
+  for (Vector3d& t : start_.translations) t.x() = 0.02;
+  options_.time_limit = 2;
+  bool converged = false;
+  observer_.iteration = [&](const FitIteration&) { return converged = true; };
+  observer_.relaxation = [&](const RelaxationFrame&) {
+    if (converged) std::this_thread::sleep_for(std::chrono::seconds(2));
+    converged = false;
+  };
+  const FitResult result = Fit(true);
+  ASSERT_EQ(result.rounds.size(), 2u);
+  EXPECT_FALSE(result.rounds[1].optimizer);
+  EXPECT_EQ(result.kept, 0);
+  EXPECT_EQ(result.termination, Termination::kTimeLimit) << result.reason;
+  EXPECT_TRUE(result.usable());
 }
 
 // So far away that no number is left of the cloth.

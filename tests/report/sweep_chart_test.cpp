@@ -140,7 +140,6 @@ TEST(SweepChart, ASingleResultStandsInTheMiddle) {
   EXPECT_EQ(chart.Front().size(), 1u);
 }
 
-// The setting that others are held against has none.
 // Where settings crowd, each name keeps a place of its own.
 TEST(SweepChart, NamesDoNotCoverEachOther) {
   SweepReport report;
@@ -167,6 +166,7 @@ TEST(SweepChart, NamesDoNotCoverEachOther) {
   EXPECT_NE(svg.find(">wall clock [s]<"), std::string::npos);
 }
 
+// The setting that others are held against has none.
 TEST(SweepChart, NoErrorIsAtTheLowerEdge) {
   const DrawnSweep chart({ResultOf("exact", 0, {8, 8, 8}),
                           ResultOf("good", 0.1, {4, 4, 4}),

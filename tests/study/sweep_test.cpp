@@ -105,6 +105,13 @@ SweepResult Result(const std::string& name,
   return r;
 }
 
+TEST(SweepPlan, RefusesAValueInThePlaceOfASection) {
+  for (const std::string part : {"base", "reference", "grid"})
+    EXPECT_THAT([&] { PlanOf(part + " = 1\n"); },
+                ::testing::ThrowsMessage<UsageError>(
+                    HasSubstr("s.toml:1:1: " + part + " is a section")));
+}
+
 TEST(SweepPlan, TellsOptionsThatEndAlikeApart) {
   const SweepPlan plan = PlanOf(
       "[grid]\nstep.newton_iterations = [1]\n"

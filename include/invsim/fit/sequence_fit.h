@@ -48,7 +48,8 @@ struct FitOptions {
   std::string optimizer = "lm";
   // The options of every optimiser by name, chosen or not.
   std::map<std::string, std::unique_ptr<Choice<Optimizer>>> optimizers;
-  int dressings = 2;  // at most
+  // At most; less if one gave no better body than the one before.
+  int dressings = 2;
   bool uncertainty = true;
   double time_limit = 0;  // s, of all stages; 0: none
 };
@@ -131,7 +132,8 @@ struct FitResult {
   // Of the round kept; null if there is none.
   const OptimizerSummary* optimizer() const;
   const ClothReference* reference() const;
-  // Of all rounds.
+  // Of all rounds; the cost is that of the first start, 0 if there was none.
+  double initial_cost() const;
   ObjectiveCounts counts() const;
   int iterations() const;
 };

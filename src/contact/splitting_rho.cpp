@@ -16,6 +16,15 @@ constexpr double kGuessTangent = 0.05;
 constexpr double kHeld = 10;
 constexpr double kOpen = 0.3;
 constexpr double kLeastSliding = 0.1;
+// In units of the stiffness that a compliant contact has itself. Two that hold
+// a vertex between them may press it with far more than all else that acts on
+// it, and splitting builds a force up by rho times what is left of the gap.
+constexpr double kStiffGuess = 0.01;
+constexpr double kStiffHeld = 0.1;
+
+double Stiffness(const Contact& c, double share) {
+  return c.exact() ? 0 : share / c.compliance;
+}
 
 }  // namespace
 
@@ -52,9 +61,10 @@ OwnCompliance ComplianceAlone(const BlockMatrix& a, const Contact& c) {
 }
 
 Scaling GuessedRho(const Contact& c, const OwnCompliance& own, double share) {
-  return {c.normal,
-          share * kGuessNormal / own.normal,
-          share * kGuessTangent / own.tangent};
+  return {
+      c.normal,
+      share * std::max(kGuessNormal / own.normal, Stiffness(c, kStiffGuess)),
+      share * kGuessTangent / own.tangent};
 }
 
 Scaling FittedRho(const Contact& c,
@@ -63,18 +73,18 @@ Scaling FittedRho(const Contact& c,
                   const Vector3d& force,
                   const Vector3d& u) {
   if (c.kind == ContactKind::kPin) return guess;
-  const auto times = [&](double normal, double tangent) {
-    return Scaling{guess.n, normal * guess.normal, tangent * guess.tangent};
-  };
-  if (mode == ContactMode::kOpen) return times(kOpen, kOpen);
-  if (mode == ContactMode::kStick) return times(kHeld, kHeld);
+  if (mode == ContactMode::kOpen)
+    return {guess.n, kOpen * guess.normal, kOpen * guess.tangent};
+  const double stiff = Stiffness(c, kStiffHeld);
+  const double normal = std::max(kHeld * guess.normal, stiff);
+  const double stiffest = std::max(kHeld * guess.tangent, stiff);
+  if (mode == ContactMode::kStick) return {guess.n, normal, stiffest};
   const double slip = (u - c.normal.dot(u) * c.normal).norm();
   const double friction = c.friction * std::max(0.0, c.normal.dot(force));
   // Written so that no slip is the stiffest, not a division by zero.
-  const double stiffest = kHeld * guess.tangent;
   const double turning =
       friction < stiffest * slip ? friction / slip : stiffest;
-  return times(kHeld, std::max(turning / guess.tangent, kLeastSliding));
+  return {guess.n, normal, std::max(turning, kLeastSliding * guess.tangent)};
 }
 
 }  // namespace invsim

@@ -42,8 +42,9 @@ Scaling GuessedRho(const Contact& c, const OwnCompliance& own, double share);
 
 // What it becomes once that is known, from the guess; `force` (N) and `u` (m/s)
 // are the contact's. What is closed is held firmly along the normal, and across
-// it if it sticks; what is open hardly. Friction that slides turns with the
-// slip: its stiffness across the slip, mu r_N / |u_T|, is rho there.
+// it if it sticks (firmer still if it is stiff itself); what is open hardly.
+// Friction that slides turns with the slip: its stiffness across the slip,
+// mu r_N / |u_T|, is rho there.
 Scaling FittedRho(const Contact& c,
                   const Scaling& guess,
                   ContactMode mode,

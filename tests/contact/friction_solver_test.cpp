@@ -85,6 +85,27 @@ class FrictionSolverTest : public testing::Test {
   std::vector<Vector3d> forces_;
 };
 
+// Held between two surfaces that close in on it, a vertex is pressed with far
+// more than its weight, by which the residual is measured.
+TEST_F(FrictionSolverTest, WhatIsSqueezedIsSolvedBySplitting) {
+  Build(5, 3.0);
+  AddGravity({0, -kGravity, 0});
+  const int vertex = 12;
+  constexpr double kClosing = 0.1, kCompliance = 1e-3;
+  for (const double side : {1.0, -1.0}) {
+    const Vector3d n(side, 0, 0);
+    AddContact(vertex, n, 0.3);
+    contacts_.back().velocity = kClosing * n;
+    contacts_.back().compliance = kCompliance;
+  }
+  const FrictionStats stats = Solve(1e-6);
+  EXPECT_TRUE(stats.converged);
+  EXPECT_EQ(stats.newton_iterations, 0);
+  EXPECT_LT(Residual(), 1e-5);
+  EXPECT_NEAR(forces_[0].x(), kClosing / kCompliance, 1);
+  EXPECT_NEAR(forces_[1].x(), -kClosing / kCompliance, 1);
+}
+
 TEST_F(FrictionSolverTest, FreeFallWithoutContact) {
   Build(5, 3.0);
   AddGravity({0, -kGravity, 0});

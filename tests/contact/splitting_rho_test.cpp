@@ -92,6 +92,20 @@ TEST_F(SplittingRhoTest, StaysWithinBoundsAtAnySlip) {
   EXPECT_EQ(Fitted(ContactMode::kSlide, r, kAcross).tangent, fast.tangent);
 }
 
+// A tenth of what the contact resists with itself, if that is more.
+TEST_F(SplittingRhoTest, WhatIsStiffItselfIsHeldAccordingly) {
+  const Vector3d r = 2 * kNormal;
+  const Scaling exact = Fitted(ContactMode::kStick, r, Vector3d::Zero());
+  contact_.compliance = 1e-5;
+  const Scaling stiff = Fitted(ContactMode::kStick, r, Vector3d::Zero());
+  EXPECT_NEAR(stiff.normal, 1e4, 1e-9);
+  EXPECT_NEAR(stiff.tangent, 1e4, 1e-9);
+  contact_.compliance = 1;
+  const Scaling soft = Fitted(ContactMode::kStick, r, Vector3d::Zero());
+  EXPECT_EQ(soft.normal, exact.normal);
+  EXPECT_EQ(soft.tangent, exact.tangent);
+}
+
 TEST_F(SplittingRhoTest, PinsKeepTheirs) {
   contact_.kind = ContactKind::kPin;
   const Scaling pin =

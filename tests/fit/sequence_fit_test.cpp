@@ -146,19 +146,24 @@ TEST_F(SequenceFitTest, WhatIsStoppedEarlyIsUsable) {
 TEST_F(SequenceFitTest, DressesAgainOnTheBodyFound) {
   dressed_ = false;
   for (Vector3d& t : start_.translations) t.x() = 0.02;
-  std::vector<double> starts;
+  std::vector<BodySequence> starts;
+  BodySequence last;
   long steps = 0;
   observer_.iteration = [&](const FitIteration& i) {
     EXPECT_GE(i.steps, steps);
     steps = i.steps;
-    if (i.record.iteration == 0) starts.push_back(i.body.translations[0].x());
+    if (i.record.iteration == 0) {
+      if (!starts.empty()) EXPECT_EQ(i.body.translations, last.translations);
+      starts.push_back(i.body);
+    }
+    last = i.body;
     return true;
   };
   const FitResult result = Fit(true);
   ASSERT_EQ(result.rounds.size(), 2u);
   ASSERT_EQ(starts.size(), 2u);
-  EXPECT_EQ(starts[0], 0.02);
-  EXPECT_LT(std::abs(starts[1]), 0.01);
+  EXPECT_EQ(starts[0].translations, start_.translations);
+  EXPECT_NE(starts[1].translations, start_.translations);
   double least = result.rounds[0].optimizer->final_cost;
   for (const FitRound& round : result.rounds) {
     EXPECT_FALSE(round.dressing.tries.empty());

@@ -153,7 +153,9 @@ TEST_F(SequenceFitTest, DressesAgainOnTheBodyFound) {
     EXPECT_GE(i.steps, steps);
     steps = i.steps;
     if (i.record.iteration == 0) {
-      if (!starts.empty()) EXPECT_EQ(i.body.translations, last.translations);
+      if (!starts.empty()) {
+        EXPECT_EQ(i.body.translations, last.translations);
+      }
       starts.push_back(i.body);
     }
     last = i.body;

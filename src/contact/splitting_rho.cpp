@@ -19,12 +19,7 @@ constexpr double kLeastSliding = 0.1;
 // In units of the stiffness that a compliant contact has itself. Two that hold
 // a vertex between them may press it with far more than all else that acts on
 // it, and splitting builds a force up by rho times what is left of the gap.
-constexpr double kStiffGuess = 0.01;
 constexpr double kStiffHeld = 0.1;
-
-double Stiffness(const Contact& c, double share) {
-  return c.exact() ? 0 : share / c.compliance;
-}
 
 }  // namespace
 
@@ -61,10 +56,9 @@ OwnCompliance ComplianceAlone(const BlockMatrix& a, const Contact& c) {
 }
 
 Scaling GuessedRho(const Contact& c, const OwnCompliance& own, double share) {
-  return {
-      c.normal,
-      share * std::max(kGuessNormal / own.normal, Stiffness(c, kStiffGuess)),
-      share * kGuessTangent / own.tangent};
+  return {c.normal,
+          share * kGuessNormal / own.normal,
+          share * kGuessTangent / own.tangent};
 }
 
 Scaling FittedRho(const Contact& c,
@@ -75,7 +69,7 @@ Scaling FittedRho(const Contact& c,
   if (c.kind == ContactKind::kPin) return guess;
   if (mode == ContactMode::kOpen)
     return {guess.n, kOpen * guess.normal, kOpen * guess.tangent};
-  const double stiff = Stiffness(c, kStiffHeld);
+  const double stiff = c.exact() ? 0 : kStiffHeld / c.compliance;
   const double normal = std::max(kHeld * guess.normal, stiff);
   const double stiffest = std::max(kHeld * guess.tangent, stiff);
   if (mode == ContactMode::kStick) return {guess.n, normal, stiffest};

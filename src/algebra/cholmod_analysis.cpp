@@ -2,12 +2,22 @@
 #include "cholmod_analysis.h"
 
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "invsim/base/threads.h"
 
 namespace invsim {
 namespace {
+
+// METIS draws from the one random sequence of the C library, which it begins
+// anew in each call: two at the same time would take each other's numbers, and
+// the ordering, by it every last bit, would change from run to run.
+bool OrderByMetis(cholmod_sparse* graph, int* order, cholmod_common* common) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  return cholmod_metis(graph, nullptr, 0, 1, order, common);
+}
 
 // The fill-reducing ordering is found on the graph of vertices, nine times
 // smaller than that of scalars, and written out for the three coordinates.
@@ -24,7 +34,7 @@ std::vector<int> Ordering(const BlockPattern& p, cholmod_common* common) {
   }
   start[p.size] = count;
   std::vector<int> order(p.size);
-  if (!cholmod_metis(graph, nullptr, 0, 1, order.data(), common)) {
+  if (!OrderByMetis(graph, order.data(), common)) {
     common->status = CHOLMOD_OK;
     cholmod_amd(graph, nullptr, 0, order.data(), common);
   }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <thread>
+#include <vector>
 
 #include "algebra/random_matrix.h"
 
@@ -41,6 +43,28 @@ TEST(CholmodAnalysis, RefusesWhatIsNotFinite) {
   CholmodAnalysis analysis(a.shared_pattern());
   a.diagonal(4)(1, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(analysis.Load(a));
+}
+
+// The last bits of every solution depend on the order of the unknowns.
+TEST(CholmodAnalysis, OrdersAlikeWhateverOtherThreadsDo) {
+  const auto pattern = GridPattern(24);
+  const auto order = [&] {
+    const CholmodAnalysis analysis(pattern);
+    const auto* first = static_cast<const int*>(analysis.factor()->Perm);
+    return std::vector<int>(first, first + analysis.factor()->n);
+  };
+  const std::vector<int> alone = order();
+  constexpr int kTimes = 25;
+  int different[2] = {0, 0};
+  {
+    std::vector<std::jthread> threads;
+    for (int& count : different)
+      threads.emplace_back([&] {
+        for (int i = 0; i < kTimes; ++i) count += order() != alone;
+      });
+  }
+  EXPECT_EQ(different[0], 0);
+  EXPECT_EQ(different[1], 0);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ ExitCode CodeOf(Termination termination) {
       return ExitCode::kOk;
     case Termination::kIterationLimit:
     case Termination::kTimeLimit:
+    case Termination::kGivenUp:
       return ExitCode::kStoppedEarly;
     case Termination::kInterrupted:
       return ExitCode::kInterrupted;

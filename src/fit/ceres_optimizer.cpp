@@ -118,6 +118,10 @@ class CeresOptimizer : public Optimizer {
     solver_.update_state_every_iteration = true;
   }
 
+  bool first_step_gains_most() const override {
+    return solver_.minimizer_type == ceres::TRUST_REGION;
+  }
+
   OptimizerSummary Run(Objective* objective,
                        const IterationObserver& observer) const override {
     const Stopwatch watch;

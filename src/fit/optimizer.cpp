@@ -11,6 +11,8 @@ const char* Name(Termination termination) {
       return "iteration limit";
     case Termination::kTimeLimit:
       return "time limit";
+    case Termination::kGivenUp:
+      return "given up";
     case Termination::kInterrupted:
       return "interrupted";
     case Termination::kStalled:

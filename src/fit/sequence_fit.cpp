@@ -82,6 +82,30 @@ bool IsBetter(const FitRound& round, const FitResult& result) {
          round.optimizer->final_cost < kept->final_cost;
 }
 
+// Whether a round may still end below what was kept: its first step that
+// helped is expected to have gained half of what there is to gain.
+class Prospects {
+ public:
+  explicit Prospects(double kept) : kept_(kept) {}
+  bool good() const { return good_; }
+  void Update(const IterationRecord& record) {
+    if (record.iteration == 0) start_ = record.cost;
+    if (judged_ || record.cost >= start_) return;
+    judged_ = true;
+    good_ = record.cost - (start_ - record.cost) < kept_;
+  }
+  std::string reason() const {
+    std::ostringstream text;
+    text << "Its first step did not come near the cost of what is kept, "
+         << kept_ << ".";
+    return text.str();
+  }
+
+ private:
+  double kept_, start_ = 0;
+  bool judged_ = false, good_ = true;
+};
+
 class Fitter {
  public:
   Fitter(const FitScene& scene,
@@ -224,16 +248,25 @@ OptimizerSummary Fitter::Optimize(BodySequence* body) {
       FreeParameters{},
       remembered ? static_cast<DataTerm*>(remembered.get()) : term_.get(),
       body);
+  const std::unique_ptr<Optimizer> optimizer =
+      options_.optimizers.at(options_.optimizer)->Make();
+  const OptimizerSummary* kept = result_.optimizer();
+  Prospects prospects(kept && optimizer->first_step_gains_most()
+                          ? kept->final_cost
+                          : kNoLimit);
   const auto observer = [&](const IterationRecord& record) {
     const bool written = !remembered || remembered->error().empty();
+    prospects.Update(record);
     return Heed(!observer_.iteration ||
                 observer_.iteration(
                     {record, *body, term_->rollout().stats().substeps})) &&
-           written;
+           written && prospects.good();
   };
-  OptimizerSummary summary = options_.optimizers.at(options_.optimizer)
-                                 ->Make()
-                                 ->Run(&objective, observer);
+  OptimizerSummary summary = optimizer->Run(&objective, observer);
+  if (!prospects.good() && MayGoOn()) {
+    summary.termination = Termination::kGivenUp;
+    summary.reason = prospects.reason();
+  }
   result_.seconds.optimization += watch.seconds();
   if (remembered) {
     result_.recalled += remembered->recalled();

@@ -232,6 +232,79 @@ TEST_F(SequenceFitTest, MoreIterationsAreAsIfThereHadBeenMoreAtOnce) {
   std::filesystem::remove_all(root);
 }
 
+// Plays back costs, one list for each run, with the body where it began.
+struct Script {
+  std::vector<std::vector<double>> runs;
+  bool first_step_gains_most = true;
+  size_t begun = 0, seen = 0;
+};
+
+class ScriptedOptimizer : public Optimizer {
+ public:
+  explicit ScriptedOptimizer(Script* script) : script_(script) {}
+  bool first_step_gains_most() const override {
+    return script_->first_step_gains_most;
+  }
+  OptimizerSummary Run(Objective*,
+                       const IterationObserver& observer) const override {
+    OptimizerSummary summary;
+    summary.termination = Termination::kConverged;
+    summary.reason = "The end of the script.";
+    script_->seen = 0;
+    for (const double cost : script_->runs.at(script_->begun++)) {
+      IterationRecord record;
+      record.iteration = static_cast<int>(script_->seen++);
+      record.cost = summary.final_cost = cost;
+      if (observer(record)) continue;
+      summary.termination = Termination::kInterrupted;
+      break;
+    }
+    return summary;
+  }
+
+ private:
+  Script* script_;
+};
+
+class ScriptedChoice : public Choice<Optimizer> {
+ public:
+  explicit ScriptedChoice(Script* script) : script_(script) {}
+  void AddOptions(OptionTable*) override {}
+  std::unique_ptr<Optimizer> Make() const override {
+    return std::make_unique<ScriptedOptimizer>(script_);
+  }
+
+ private:
+  Script* script_;
+};
+
+// By what its first step that helped leaves: twice its gain does not lead from
+// 20 over 15 below 6, but from 20 over 12 it does.
+TEST_F(SequenceFitTest, GivesUpADressingWhoseFirstStepStaysFarAbove) {
+  dressed_ = false;
+  options_.optimizer = "script";
+  const auto fit = [&](Script* script) {
+    options_.optimizers["script"] = std::make_unique<ScriptedChoice>(script);
+    return Fit(true);
+  };
+  Script hopeless{{{30, 6}, {20, 20, 15, 5}}};
+  const FitResult result = fit(&hopeless);
+  ASSERT_EQ(result.rounds.size(), 2u);
+  EXPECT_EQ(hopeless.seen, 3u);
+  EXPECT_EQ(result.kept, 0);
+  EXPECT_EQ(result.termination, Termination::kConverged);
+  EXPECT_EQ(result.rounds[1].optimizer->termination, Termination::kGivenUp);
+  EXPECT_EQ(result.rounds[1].optimizer->reason,
+            "Its first step did not come near the cost of what is kept, 6.");
+
+  Script hopeful{{{30, 6}, {20, 12, 5}}};
+  EXPECT_EQ(fit(&hopeful).kept, 1);
+  Script slow{{{30, 6}, {20, 19, 5}}, false};
+  EXPECT_EQ(fit(&slow).kept, 1);
+  Script alone{{{30, 29, 7}, {20}}};  // never the first
+  EXPECT_EQ(fit(&alone).rounds[0].optimizer->final_cost, 7);
+}
+
 // The time is over while the garment is put on again.
 TEST_F(SequenceFitTest, ATimeLimitInTheNextDressingIsReported) {
   dressed_ = false;

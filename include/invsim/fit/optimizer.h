@@ -24,6 +24,7 @@ enum class Termination {
   kConverged,       // a tolerance was met
   kIterationLimit,  // usable, not converged
   kTimeLimit,       // likewise; said by who watches the time (sequence_fit.h)
+  kGivenUp,         // likewise; of a round without prospects (sequence_fit.h)
   kInterrupted,     // the observer asked for a stop
   kStalled,         // the last steps failed to evaluate: at the border of what
                     // can be simulated
@@ -69,6 +70,9 @@ class Optimizer {
   // Changes objective->x() to the best point found.
   virtual OptimizerSummary Run(Objective* objective,
                                const IterationObserver& observer) const = 0;
+  // Whether the steps after the first are, all in all, not expected to gain
+  // more than it did, as with Newton's methods (docs/accuracy.md).
+  virtual bool first_step_gains_most() const { return false; }
 };
 
 struct CeresOptions {

@@ -16,7 +16,8 @@
 // The garment of stage 3 hangs as it was put on a body that was not known yet,
 // and friction remembers that. So stages 2 and 3 are gone through again, from
 // the body found, `dressings` times in all, and the round of least cost is
-// kept.
+// kept. A later round whose first step shows that it will not come below is
+// given up (Optimizer::first_step_gains_most).
 //
 // With a checkpoint folder each stage leaves its result there, and every
 // evaluation of stage 3 (remembered_term.h). Called again with the same folder

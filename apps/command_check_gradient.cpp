@@ -118,6 +118,10 @@ void PrintTable(const GradientCheck& check, int contacts) {
   Print("\n%d contacts; %d parameters do not move the cloth\n",
         contacts,
         check.still);
+  if (check.compared() == 0)
+    Print(
+        "no column could be compared: expected a frame in which contacts "
+        "hold the cloth to the body\n");
 }
 
 Json ToJson(const GradientCheck& check, int contacts) {
@@ -126,6 +130,7 @@ Json ToJson(const GradientCheck& check, int contacts) {
   json["schema_version"] = 1;
   json["contacts"] = contacts;
   json["columns"] = check.columns.size();
+  json["columns_compared"] = check.compared();
   json["columns_without_influence"] = check.still;
   json["columns_switched"] = check.switched;
   json["largest_relative_error"] = check.worst;
@@ -258,6 +263,7 @@ ExitCode CheckGradientCommand::Run(const CommandContext& context) {
   if (InterruptRequested()) return ExitCode::kInterrupted;
   int contacts = 0;
   const GradientCheck check = Check(scene, start, &contacts);
+  if (InterruptRequested()) return ExitCode::kInterrupted;
   const std::string json = ToJson(check, contacts).dump(2) + "\n";
   if (folder) {
     folder->Write("report.json", json);
@@ -268,8 +274,9 @@ ExitCode CheckGradientCommand::Run(const CommandContext& context) {
   } else {
     PrintTable(check, contacts);
   }
-  return check.worst <= check_.largest_error ? ExitCode::kOk
-                                             : ExitCode::kFailed;
+  return check.compared() > 0 && check.worst <= check_.largest_error
+             ? ExitCode::kOk
+             : ExitCode::kFailed;
 }
 
 }  // namespace

@@ -190,6 +190,7 @@ Json JsonRow(const GalleryRow& row) {
   json["speed_max_m_per_s"] = NumberOrNull(o.speed);
   json["creep_max_mm"] = 1e3 * o.creep;
   json["vertices_misplaced"] = o.misplaced;
+  json["crossing_faces_max"] = o.crossings;
   json["derivative_relative_error"] = NumberOrNull(o.derivative);
   json["derivative_columns"] = o.columns;
   json["derivative_columns_switched"] = o.switched;
@@ -241,6 +242,8 @@ std::string GalleryText(const GalleryReport& report) {
       text += row.hard.name + ": " + broken.text + "\n";
     if (row.known())
       text += row.hard.name + ": known: " + row.hard.border + "\n";
+    for (const Breach& broken : row.outcome.beyond)
+      text += row.hard.name + ": beyond its border: " + broken.text + "\n";
   }
   for (const GalleryFitRow& row : report.fits)
     for (const std::string& broken : row.outcome.broken)

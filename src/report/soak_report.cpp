@@ -69,6 +69,7 @@ std::string SoakText(const SoakResult& r) {
                "scenes",
                r.scenes,
                static_cast<unsigned long long>(r.first_seed));
+  text += Line("%-22s in %d scenes\n", "contacts", r.scenes_touching);
   text += Line("%-22s %d\n", "frames", r.frames);
   text += Line("%-22s %d\n", "steps", s.substeps);
   text += Line("%-22s %.4f %%\n",
@@ -104,6 +105,7 @@ std::string SoakJson(const SoakResult& r) {
   json["substeps_failed"] = r.step.failed;
   json["scenes_with_missed_steps"] = r.scenes_missed;
   json["scenes_with_halved_steps"] = r.scenes_halved;
+  json["scenes_with_contacts"] = r.scenes_touching;
   json["worst_residual_weights"] = r.step.worst_residual;
   json["penetration_max_mm"] = 1e3 * r.penetration;
   json["energy_gain_relative"] = r.energy;

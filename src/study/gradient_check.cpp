@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "invsim/base/error.h"
+#include "invsim/base/interrupt.h"
 #include "invsim/base/options.h"
 #include "invsim/sim/sensitivity.h"
 
@@ -27,6 +28,11 @@ double Median(std::vector<double> values) {
   const auto middle = values.begin() + values.size() / 2;
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// The larger of the two; what is not a number stays.
+void Raise(double error, double* worst) {
+  if (!std::isnan(*worst) && !(error <= *worst)) *worst = error;
 }
 
 // Where the two simulations of a difference end as far from each other over a
@@ -149,7 +155,7 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
   GradientCheck check;
   check.steps = options.steps;
   std::vector<std::vector<double>> errors(options.steps.size());
-  for (int k = 0; k < body.parameters; ++k) {
+  for (int k = 0; k < body.parameters && !InterruptRequested(); ++k) {
     // A parameter that does not move the body cannot move the cloth.
     if (derivative.x.col(k).norm() == 0 &&
         body.moved(k, options.steps[0]) == body.at) {
@@ -183,8 +189,7 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
       continue;
     }
     check.switched += result.switched;
-    double* worst = result.switched ? &check.worst_switched : &check.worst;
-    *worst = std::max(*worst, result.error);
+    Raise(result.error, result.switched ? &check.worst_switched : &check.worst);
     check.columns.push_back(result);
   }
   for (const std::vector<double>& e : errors)

@@ -91,30 +91,36 @@ void AddParameterCases(std::vector<HardCase>* cases) {
   const auto add = [&](const char* name,
                        const char* shows,
                        std::function<HardScene()> make,
-                       const char* border = "") {
-    cases->push_back(
-        {std::string("parameters/") + name, shows, std::move(make), border});
+                       const char* border = "",
+                       HardLimits ceiling = {}) {
+    cases->push_back({std::string("parameters/") + name,
+                      shows,
+                      std::move(make),
+                      border,
+                      ceiling});
   };
   const char* caught =
       "cloth that was caught where the body overlaps itself is led out slowly";
   // SMPL's joints: 4 left knee, 16 and 17 shoulders, 18 and 19 elbows, 9 chest.
   add("theta_0", "all rotations exactly zero", [] { return ToPose({}); });
   add("theta_2_pi", "the root turned by exactly 2 pi", FullTurn);
-  add("elbows_180", "elbows folded by 180 degrees", [] {
-    HardScene scene = ToPose(
-        {{18, Vector3d(0, -EIGEN_PI, 0)}, {19, Vector3d(0, EIGEN_PI, 0)}});
-    // Some of the sleeve is caught on the way, for a frame or two.
-    scene.limits.penetration = 0.01;
-    return scene;
-  });
-  add(
-      "shoulders_180",
+  // For a frame or two; how deep is by which edge it slips from.
+  add("elbows_180",
+      "elbows folded by 180 degrees",
+      [] {
+        return ToPose(
+            {{18, Vector3d(0, -EIGEN_PI, 0)}, {19, Vector3d(0, EIGEN_PI, 0)}});
+      },
+      caught,
+      {.penetration = 0.01});
+  add("shoulders_180",
       "arms turned by 180 degrees, across the body",
       [] {
         return ToPose(
             {{16, Vector3d(0, -EIGEN_PI, 0)}, {17, Vector3d(0, EIGEN_PI, 0)}});
       },
-      caught);
+      caught,
+      {.penetration = 0.025});
   add("arms_pressed", "sleeves squeezed between arms and torso", [] {
     return ToPose({{16, Vector3d(0, 0, -1.4)}, {17, Vector3d(0, 0, 1.4)}});
   });
@@ -125,7 +131,8 @@ void AddParameterCases(std::vector<HardCase>* cases) {
   add("impossible_pose",
       "every joint turned by about a radian",
       Impossible,
-      caught);
+      caught,
+      {.penetration = 0.01});
 }
 
 }  // namespace invsim

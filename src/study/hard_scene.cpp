@@ -11,6 +11,7 @@
 #include "hard_cases.h"
 #include "invsim/base/error.h"
 #include "invsim/base/stopwatch.h"
+#include "invsim/geometry/self_intersection.h"
 #include "invsim/sim/penetration.h"
 #include "invsim/sim/sensitivity.h"
 #include "invsim/study/gradient_check.h"
@@ -153,7 +154,7 @@ void CheckDerivative(const HardScene& scene,
                                                    start,
                                                    &simulator);
     outcome->switched = check.switched;
-    outcome->columns = static_cast<int>(check.columns.size()) - check.switched;
+    outcome->columns = check.compared();
     if (outcome->columns > 0) outcome->derivative = check.worst;
   } catch (const InputError& error) {
     outcome->broken.push_back({"derivative", error.what()});
@@ -167,32 +168,51 @@ std::string Text(auto... parts) {
   return text.str();
 }
 
-// Holds the outcome against the limits.
-void Judge(const HardScene& scene, HardOutcome* o) {
-  const HardLimits& limits = scene.limits;
+bool HasSelfContact(const HardScene& scene) {
+  const std::vector<std::string>& effects = scene.options.effects;
+  return std::find(effects.begin(), effects.end(), "self_contact") !=
+         effects.end();
+}
+
+// The limits that the outcome of the scene breaks.
+std::vector<Breach> Judge(const HardScene& scene,
+                          const HardLimits& limits,
+                          const HardOutcome& o) {
+  std::vector<Breach> broken;
   const auto fail = [&](const char* limit, auto... parts) {
-    o->broken.push_back({limit, Text(parts...)});
+    broken.push_back({limit, Text(parts...)});
   };
-  if (o->step.failed > 0 || o->frames < scene.frames)
-    fail("finite", "not finite in frame ", o->frames + 1, " of ", scene.frames);
-  if (o->step.missed > limits.missed)
+  if (o.step.failed > 0 || o.frames < scene.frames)
+    fail("finite", "not finite in frame ", o.frames + 1, " of ", scene.frames);
+  if (o.step.missed > limits.missed)
     fail("converged",
-         o->step.missed,
+         o.step.missed,
          " of ",
-         o->step.substeps,
+         o.step.substeps,
          " steps above the contact tolerance");
   const double tolerance = scene.options.step.friction.tolerance;
-  if (o->step.missed == 0 && o->step.worst_residual > tolerance)
-    fail("counted", "residual ", o->step.worst_residual, " not counted");
-  if (!(o->penetration <= limits.penetration))
-    fail("penetration", "penetration ", 1e3 * o->penetration, " mm");
-  if (!(o->energy <= limits.energy))
-    fail("energy", "energy gained from nowhere: ", o->energy);
-  if (!(o->creep <= limits.creep)) fail("creep", "creep of ", o->creep, " m");
-  if (o->misplaced > 0) fail("misplaced", o->misplaced, " vertices misplaced");
-  if (o->derivative > limits.derivative)
-    fail("derivative", "derivative off by ", o->derivative);
+  if (o.step.missed == 0 && o.step.worst_residual > tolerance)
+    fail("counted", "residual ", o.step.worst_residual, " not counted");
+  if (!(o.penetration <= limits.penetration))
+    fail("penetration", "penetration ", 1e3 * o.penetration, " mm");
+  if (!(o.energy <= limits.energy))
+    fail("energy", "energy gained from nowhere: ", o.energy);
+  if (!(o.creep <= limits.creep)) fail("creep", "creep of ", o.creep, " m");
+  if (o.misplaced > 0) fail("misplaced", o.misplaced, " vertices misplaced");
+  if (o.crossings > 0 && HasSelfContact(scene))
+    fail("crossing", o.crossings, " pairs of faces cross");
+  if (o.differentiated && o.columns < limits.columns)
+    fail("derivative", o.columns, " columns of the derivative compared");
+  if (o.columns > 0 && !(o.derivative <= limits.derivative))
+    fail("derivative", "derivative off by ", o.derivative);
+  return broken;
 }
+
+// Where the derivative of a frame begins.
+struct FrameStart {
+  Points previous, body;
+  ClothState cloth;
+};
 
 // Follows one scene through its frames.
 class Run {
@@ -205,6 +225,7 @@ class Run {
         state_(Start(scene)),
         energy_(simulator_, state_) {
     if (scene.body.faces.cols() > 0) surface_.emplace(body_, scene.body.faces);
+    apart_ = NumCrossings() == 0;
   }
 
   void Frames() {
@@ -212,9 +233,8 @@ class Run {
       if (!Frame(frame)) return;
   }
 
-  const Points& previous() const { return previous_; }
-  const Points& body() const { return body_; }
-  const ClothState& before() const { return before_; }  // the last frame
+  // Of the last frame and of some before, the last one first.
+  const std::vector<FrameStart>& starts() const { return starts_; }
 
  private:
   static ClothState Start(const HardScene& scene) {
@@ -223,10 +243,17 @@ class Run {
             Points::Zero(3, scene.garment.num_vertices())};
   }
 
+  int NumCrossings() const {
+    return static_cast<int>(
+        SelfIntersections(state_.x, scene_.garment.faces).size());
+  }
+
   bool Frame(int frame) {
-    previous_ = body_;
-    before_ = state_;
     Points next = BodyAt(scene_, frame);
+    // Of a cloth that has left the body by the end, others can be compared.
+    const int quarter = std::max(1, scene_.frames / 4);
+    if ((scene_.frames - frame) % quarter == 0)
+      starts_.insert(starts_.begin(), {body_, next, state_});
     simulator_.FindInside(body_, state_);
     FrameRecord record;
     if (!simulator_.Advance(body_,
@@ -249,6 +276,8 @@ class Run {
         outcome_.speed, std::sqrt(state_.v.colwise().squaredNorm().maxCoeff()));
     if (frame == scene_.grace || (frame == 1 && scene_.grace == 0))
       resting_ = state_.x;
+    if (apart_)
+      outcome_.crossings = std::max(outcome_.crossings, NumCrossings());
     if (frame < scene_.grace) return;
     outcome_.creep = std::max(
         outcome_.creep, (state_.x - resting_).colwise().norm().maxCoeff());
@@ -267,8 +296,10 @@ class Run {
   HardOutcome& outcome_;
   Simulator simulator_;
   std::optional<SurfaceIndex> surface_;
-  Points body_, previous_;
-  ClothState state_, before_;
+  Points body_;
+  ClothState state_;
+  std::vector<FrameStart> starts_;
+  bool apart_ = false;  // no faces crossed at the start
   EnergyAccount energy_;
   Points resting_;
 };
@@ -280,10 +311,16 @@ HardOutcome RunHardScene(const HardScene& scene, bool derivative) {
   HardOutcome outcome;
   Run run(scene, &outcome);
   run.Frames();
-  if (derivative && scene.differentiable && outcome.frames == scene.frames &&
-      outcome.step.missed == 0 && scene.body.faces.cols() > 0)
-    CheckDerivative(scene, run.previous(), run.body(), run.before(), &outcome);
-  Judge(scene, &outcome);
+  outcome.differentiated =
+      derivative && scene.differentiable && outcome.frames == scene.frames &&
+      outcome.step.missed == 0 && scene.body.faces.cols() > 0;
+  if (outcome.differentiated)
+    for (const FrameStart& start : run.starts()) {
+      CheckDerivative(scene, start.previous, start.body, start.cloth, &outcome);
+      if (outcome.columns > 0 || !outcome.broken.empty()) break;
+    }
+  for (Breach& breach : Judge(scene, scene.limits, outcome))
+    outcome.broken.push_back(std::move(breach));
   outcome.seconds = watch.seconds();
   return outcome;
 }
@@ -300,6 +337,8 @@ HardOutcome RunHardCase(const HardCase& hard, bool derivative) {
     return outcome;
   }
   HardOutcome outcome = RunHardScene(*scene, derivative);
+  if (!hard.border.empty())
+    outcome.beyond = Judge(*scene, hard.ceiling, outcome);
   if (hard.refused)
     outcome.broken.push_back({"refused", "taken, though bad input"});
   return outcome;

@@ -27,9 +27,10 @@ HardScene Steps(double per_second, int frames) {
   return scene;
 }
 
-// To and fro by 25 cm, at 5 m/s in the middle.
+// To and fro by 25 cm, at 5 m/s in the middle, in a sheet too large to fall
+// off at once.
 HardScene FastMotion() {
-  HardScene scene = SheetOverBall();
+  HardScene scene = SheetOverBall(16, 0.9);
   scene.frames = 60;
   MoveBody(&scene,
            [](int frame) { return 0.25 * std::sin(20 * frame / 60.0); });

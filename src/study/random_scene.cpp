@@ -383,6 +383,7 @@ RandomScene Draw::Scene() {
   scene_.limits.missed = std::numeric_limits<int>::max();
   // Where many halvings follow each other differences are good to no more.
   scene_.limits.derivative = 1e-4;
+  scene_.limits.columns = 0;  // cloth may never meet the body
   const TriangleMesh cloth = Cloth();
   DrawMaterial();
   DrawEffects();
@@ -429,7 +430,9 @@ HardOutcome RunRandomScene(const RandomScene& drawn) {
 std::string KnownBorder(const RandomScene& drawn,
                         const HardOutcome& outcome,
                         const Breach& breach) {
-  if (breach.limit == "throws" || breach.limit == "derivative") return "";
+  // Nothing excuses these.
+  for (const char* limit : {"throws", "finite", "crossing", "derivative"})
+    if (breach.limit == limit) return "";
   if (drawn.stiffness > kRounding)
     return "slivers so thin that rounding decides";
   if (breach.limit == "penetration" && outcome.step.stopped > 0)

@@ -12,6 +12,8 @@ void SoakResult::Add(const RandomScene& drawn, const HardOutcome& outcome) {
   step.Add(outcome.step);
   scenes_missed += outcome.step.missed > 0;
   scenes_halved += outcome.step.halved > 0;
+  scenes_touching +=
+      outcome.step.most_contacts + outcome.step.most_cloth_contacts > 0;
   penetration = std::max(penetration, outcome.penetration);
   energy = std::max(energy, outcome.energy);
   columns += outcome.columns;

@@ -215,6 +215,18 @@ TEST(GalleryReport, AKnownBorderIsNoFailure) {
   EXPECT_EQ(scene["broken"][0], "energy by too much");
 }
 
+// Beyond it other limits hold, or it fails.
+TEST(GalleryReport, MoreThanIsKnownOfABorderFails) {
+  GalleryReport report;
+  report.rows = {Broken(SceneRow("time/long"), "energy")};
+  report.rows[0].hard.border = "Steps of a second gain energy.";
+  report.rows[0].outcome.beyond = {{"energy", "all of it twice"}};
+  EXPECT_FALSE(Holds(report));
+  EXPECT_EQ(GalleryLine(report, "time/long")[1], "FAILS");
+  EXPECT_THAT(GalleryText(report),
+              HasSubstr("time/long: beyond its border: all of it twice\n"));
+}
+
 // A border that is not met after all is no reason to say less of a case.
 TEST(GalleryReport, ACaseThatHoldsInSpiteOfItsBorderHolds) {
   GalleryReport report;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "sim/sphere_scene.h"
 #include "sim/test_scene.h"
 
@@ -56,6 +59,37 @@ TEST_F(GradientCheckTest, CountsColumnsWhoseContactsSwitch) {
                                                  simulator_.get());
   EXPECT_GE(check.switched, 4);
   EXPECT_GT(check.worst_switched, check.worst);
+}
+
+// A shift of the ball, with a derivative that is not a number.
+TEST_F(GradientCheckTest, WhatIsNotANumberIsWorst) {
+  const Points at = body_.Vertices(p_);
+  MovableBody ball;
+  ball.at = at;
+  ball.parameters = 2;
+  ball.moved = [&](int k, double step) {
+    return Points(at.colwise() + step * Vector3d::Unit(k));
+  };
+  ball.jacobian = [&](const std::vector<int>& vertices) {
+    Columns columns = Columns::Zero(3 * vertices.size(), 2);
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      columns(3 * i, 0) = std::numeric_limits<double>::quiet_NaN();
+      columns(3 * i + 1, 1) = 1;
+    }
+    return columns;
+  };
+  const GradientCheck check = CheckFrameGradient(
+      {}, ball, body_.Vertices({}), 1 / 60.0, state_, simulator_.get());
+  EXPECT_TRUE(std::isnan(check.worst) || std::isnan(check.worst_switched));
+}
+
+// Far above the ball nothing moves the cloth, and nothing was compared.
+TEST_F(GradientCheckTest, WithoutContactNothingIsCompared) {
+  state_.x.row(1).array() += 1;
+  const GradientCheck check = CheckFrameGradient(
+      {}, body_, body_.Vertices({}), p_, 1 / 60.0, state_, simulator_.get());
+  EXPECT_EQ(check.compared(), 0);
+  EXPECT_EQ(check.still, kNumBodyParameters);
 }
 
 }  // namespace

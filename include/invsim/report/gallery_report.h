@@ -20,8 +20,10 @@ struct GalleryRow {
   HardOutcome outcome;
 
   bool holds() const { return outcome.broken.empty(); }
-  // It does not, and that is known.
-  bool known() const { return !holds() && !hard.border.empty(); }
+  // It does not, and that is known, as far as it goes.
+  bool known() const {
+    return !holds() && !hard.border.empty() && outcome.beyond.empty();
+  }
 };
 
 struct GalleryFitRow {

@@ -54,6 +54,9 @@ struct GradientCheck {
   double worst_switched = 0;  // of those in which they did
   // Per step size: the median error over all columns that were compared.
   std::vector<double> steps, median_error;
+
+  // Columns whose contacts stay as they are: the ones that tell something.
+  int compared() const { return static_cast<int>(columns.size()) - switched; }
 };
 
 // A body at the end of a frame and the numbers that move it there.
@@ -69,7 +72,8 @@ struct MovableBody {
 // Simulates the frame in which the body moves from `previous` to `body.at`
 // and the cloth starts at `start`, and checks its derivative. `simulator` must
 // be solved tightly (friction tolerance near 1e-10) for small differences to
-// mean anything. Throws InputError if the frame cannot be simulated.
+// mean anything. An interrupt leaves out what is not yet compared. Throws
+// InputError if the frame cannot be simulated.
 GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
                                  const MovableBody& body,
                                  const Points& previous,

@@ -19,8 +19,10 @@
 //                  T_1 + E_1 <= T_0 + E_0 + dt sum_i r_i . v_i ,
 //                r_i the contact forces; the largest breach over the scene is
 //                reported relative to the energy that went about in it
-//   derivative   d(cloth)/d(body) of the last frame agrees with differences,
-//                for columns whose contacts stay as they are
+//   crossing     with self-contact, no faces cross that did not at the start
+//   derivative   d(cloth)/d(body) of the last frame in which a column can be
+//                compared agrees with differences, for columns whose contacts
+//                stay as they are
 //
 // and, where a scene has them, limits of its own (creep at rest, vertices that
 // end on the wrong side of a wall).
@@ -44,6 +46,8 @@ struct HardLimits {
   double derivative = 1e-5;   // relative, at the best step of differences
   double creep = std::numeric_limits<double>::infinity();  // m
   int missed = 0;                                          // steps
+  // Of the derivative, compared at least, where one is asked for.
+  int columns = 1;
 };
 
 struct HardScene {
@@ -87,15 +91,18 @@ struct HardOutcome {
   double creep = 0;        // m, from the end of the grace on
   double speed = 0;        // m/s, the largest of any vertex
   int misplaced = 0;
+  int crossings = 0;  // pairs of faces, at any frame, if none did at first
   // Of the derivative; NaN: none was compared.
   double derivative = std::numeric_limits<double>::quiet_NaN();
   int columns = 0, switched = 0;
+  bool differentiated = false;  // whether columns could be looked for
   double seconds = 0;
   std::vector<Breach> broken;  // empty: the scene holds
+  std::vector<Breach> beyond;  // of a case at a border: of its ceiling
 };
 
 // Runs the scene and holds it against its limits. `derivative`: also the
-// derivative of the last frame, which simulates it some tens of times.
+// derivative of a frame, which simulates it some tens of times.
 HardOutcome RunHardScene(const HardScene& scene, bool derivative = true);
 
 // A scene by name.
@@ -103,8 +110,10 @@ struct HardCase {
   std::string name;   // "contact/cube_corner"
   std::string shows;  // one line
   std::function<HardScene()> make;
-  // What is known not to hold, in words; empty: all limits hold.
+  // What is known not to hold, in words, and the limits that do hold there;
+  // empty: all limits hold.
   std::string border = {};
+  HardLimits ceiling = {};
   // The scene is bad input: making it throws InputError.
   bool refused = false;
 };

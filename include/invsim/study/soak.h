@@ -24,9 +24,10 @@ struct SoakResult {
   std::uint64_t first_seed = 0;
   int scenes = 0;
   int frames = 0;
-  StepStats step;         // over all scenes
-  int scenes_missed = 0;  // with a step above the contact tolerance
-  int scenes_halved = 0;  // with a step that was halved
+  StepStats step;           // over all scenes
+  int scenes_missed = 0;    // with a step above the contact tolerance
+  int scenes_halved = 0;    // with a step that was halved
+  int scenes_touching = 0;  // with a contact
   // The worst of any scene.
   double penetration = 0;  // m
   double energy = 0;       // relative

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <thread>
 
@@ -39,7 +40,20 @@ double Seconds(const timeval& t) {
   _exit(kCannotStart);
 }
 
+// As it would be typed in a shell.
+std::string Quoted(const std::string& word) {
+  const bool plain =
+      word.find_first_of(" []$&;'\"()*?<>|") == std::string::npos;
+  return plain ? word : "'" + word + "'";
+}
+
 }  // namespace
+
+std::string ShellLine(const std::vector<std::string>& words) {
+  std::string line = "invsim";
+  for (const std::string& word : words) line += " " + Quoted(word);
+  return line;
+}
 
 ChildResult RunChild(const std::vector<std::string>& arguments,
                      const std::string& log) {
@@ -56,6 +70,7 @@ ChildResult RunChild(const std::vector<std::string>& arguments,
   // Not among the three that the child gets anew.
   const int output = fcntl(file, F_DUPFD_CLOEXEC, 3);
   close(file);
+  dprintf(output, "$ %s\n", ShellLine(arguments).c_str());
   const Stopwatch watch;
   const pid_t parent = getpid();
   const pid_t child = fork();

@@ -16,7 +16,11 @@ struct ChildResult {
   double cpu_seconds = 0;  // user and system, all threads
 };
 
-// `arguments` without the program's name. What it prints goes to `log`. It does
+// "invsim WORDS" as it would be typed in a shell.
+std::string ShellLine(const std::vector<std::string>& words);
+
+// `arguments` without the program's name. What it prints goes to `log`, after a
+// line "$ " with the ShellLine. It does
 // not outlive this process, and is told to end when InterruptRequested().
 // Throws InputError if it cannot be started.
 ChildResult RunChild(const std::vector<std::string>& arguments,

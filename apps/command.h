@@ -60,6 +60,7 @@ void Describe(OptionTable* table, RunOptions* options);
 struct CommandContext {
   RunOptions run;
   std::string out;                       // --out DIR, "" if not given
+  std::string config;                    // --config FILE, "" if not given
   bool json = false;                     // --json: the result as JSON
   int verbosity = 0;                     // -1 (-q) to 2 (-vv)
   const OptionTable* options = nullptr;  // all of them, as resolved

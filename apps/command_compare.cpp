@@ -11,6 +11,7 @@
 #include "fit_inputs.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/report/chart.h"
 #include "invsim/report/comparison_report.h"
 #include "invsim/report/run_folder.h"
@@ -87,11 +88,14 @@ ExitCode CompareCommand::Run(const CommandContext& context) {
   // Refuses now what stage 1 need not be waited for.
   ChosenEffects(scene_, data.garment, data.material);
   const auto truth = LoadTruth(static_cast<int>(data.clouds.size()));
-  const RunFolder folder(context.out.empty() ? kCompareOut : context.out,
-                         force_);
+  std::vector<std::string> inputs = PathsOf(input_);
+  inputs.insert(inputs.end(),
+                {scene_.material, compare_.truth, context.config});
+  const RunFolder folder(
+      context.out.empty() ? kCompareOut : context.out, force_, inputs);
   fit_.dressings = 1;
   fit_.uncertainty = false;
-  folder.Write("config.resolved.toml", ResolvedToml(*context.options));
+  folder.Write(kResolvedConfig, ResolvedToml(*context.options));
 
   std::unique_ptr<Simulator> simulator;  // one for all
   FitScene scene{

@@ -10,16 +10,17 @@
 //
 // and prints how far the body and the cloth are from the truth.
 
-#include <filesystem>
 #include <iomanip>
 #include <iostream>
 
+#include "child_process.h"
 #include "command.h"
 #include "dispatcher.h"
 #include "inputs.h"
 #include "invsim/base/error.h"
 #include "invsim/base/stopwatch.h"
 #include "invsim/geometry/chamfer.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/io/ply.h"
 #include "invsim/report/chart.h"
 #include "invsim/report/run_folder.h"
@@ -43,29 +44,6 @@ void Describe(OptionTable* table, DemoOptions* o) {
 }
 
 using Line = std::vector<std::string>;
-
-// As it would be typed in a shell.
-std::string Quoted(const std::string& word) {
-  const bool plain =
-      word.find_first_of(" []$&;'\"()*?<>|") == std::string::npos;
-  return plain ? word : "'" + word + "'";
-}
-
-// Runs `invsim LINE` in this process.
-ExitCode RunLine(Line line, const CommandContext& context) {
-  line.insert(line.end(), {"--threads", std::to_string(context.run.threads)});
-  line.insert(line.end(), {"--seed", std::to_string(context.run.seed)});
-  if (context.verbosity < 0) line.push_back("-q");
-  std::string text = "invsim";
-  for (const std::string& word : line) text += " " + Quoted(word);
-  std::cerr << "\n$ " << text << std::endl;
-  line.insert(line.begin(), "invsim");
-  std::vector<char*> arguments;
-  for (std::string& word : line) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  return static_cast<ExitCode>(
-      Dispatch(AllCommands(), static_cast<int>(line.size()), arguments.data()));
-}
 
 bool Usable(ExitCode code) {
   return code == ExitCode::kOk || code == ExitCode::kStoppedEarly;
@@ -109,6 +87,8 @@ class DemoCommand : public Command {
   ExitCode Run(const CommandContext& context) override;
 
  private:
+  // Runs `invsim LINE` in this process.
+  ExitCode RunLine(Line line, const CommandContext& context) const;
   Line SynthLine(const std::string& sequence) const;
   Line FitLine(const std::string& sequence,
                const std::string& start,
@@ -122,6 +102,20 @@ class DemoCommand : public Command {
   DemoOptions options_;
   bool force_ = false;
 };
+
+ExitCode DemoCommand::RunLine(Line line, const CommandContext& context) const {
+  line.insert(line.end(), {"--threads", std::to_string(context.run.threads)});
+  line.insert(line.end(), {"--seed", std::to_string(context.run.seed)});
+  if (context.verbosity < 0) line.push_back("-q");
+  if (force_) line.push_back("--force");
+  std::cerr << "\n$ " << ShellLine(line) << std::endl;
+  line.insert(line.begin(), "invsim");
+  std::vector<char*> arguments;
+  for (std::string& word : line) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  return static_cast<ExitCode>(
+      Dispatch(AllCommands(), static_cast<int>(line.size()), arguments.data()));
+}
 
 Line DemoCommand::SynthLine(const std::string& sequence) const {
   return {"synth",      "sequence",
@@ -199,10 +193,8 @@ ExitCode DemoCommand::Run(const CommandContext& context) {
   const std::string out = context.out.empty() ? kDemoOut : context.out;
   const std::string sequence = out + "/sequence", run = out + "/fit",
                     start_path = out + "/start.npz";
-  if (force_)
-    for (const std::string& part : {sequence, run, start_path})
-      std::filesystem::remove_all(part);
-  const RunFolder folder(out, false);
+  const RunFolder folder(out, force_, {context.config});
+  folder.Write(kResolvedConfig, ResolvedToml(*context.options));
   ExitCode code = RunLine(SynthLine(sequence), context);
   if (!Usable(code)) return code;
   const Truth truth = ReadTruth(sequence + "/truth.npz");

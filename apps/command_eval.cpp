@@ -70,6 +70,7 @@ class EvalCommand : public Command {
   ExitCode Run(const CommandContext& context) override;
 
  private:
+  void PrepareFolder(const fs::path& out) const;
   RunEvaluation EvaluateRun(const std::string& run,
                             const std::string& truth,
                             std::ostream* log) const;
@@ -144,21 +145,28 @@ void EvalCommand::PrintAll(const std::vector<RunEvaluation>& all,
   WriteFileBytes((folder / "report.html").string(), EvaluationsPage(all));
 }
 
+// Replaces an earlier evaluation if asked to, but not what looks like one.
+void EvalCommand::PrepareFolder(const fs::path& out) const {
+  std::error_code failed;
+  fs::create_directories(out, failed);
+  const bool ours = fs::exists(out / "evaluation.json");
+  for (const char* file :
+       {"evaluation.json", "evaluation.csv", "table.md", "report.html"})
+    if (fs::exists(out / file) && !(force_ && ours))
+      throw UsageError(
+          out.string() +
+          (ours ? ": holds an evaluation already; choose another --out, or "
+                  "--force to replace it"
+                : ": holds a " + std::string(file) +
+                      " of something else; choose another --out"));
+}
+
 ExitCode EvalCommand::Run(const CommandContext& context) {
   for (const std::string& path : {run_, truth_})
     if (!fs::exists(path)) throw InputError(path + ": does not exist");
   if (!fs::is_directory(run_))
     throw InputError(run_ + ": is a file, expected a run's folder");
-  if (!context.out.empty()) {
-    std::error_code failed;
-    fs::create_directories(context.out, failed);
-    for (const char* file :
-         {"evaluation.json", "evaluation.csv", "table.md", "report.html"})
-      if (!force_ && fs::exists(fs::path(context.out) / file))
-        throw UsageError(context.out +
-                         ": holds an evaluation already; choose another --out, "
-                         "or --force to replace it");
-  }
+  if (!context.out.empty()) PrepareFolder(context.out);
   std::ostream* log = context.verbosity > 0 ? &std::cerr : nullptr;
   if (fs::exists(fs::path(run_) / kBodyFile)) {
     PrintOne(EvaluateRun(run_, truth_, log), context);

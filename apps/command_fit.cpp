@@ -18,6 +18,7 @@
 #include "invsim/base/stopwatch.h"
 #include "invsim/base/threads.h"
 #include "invsim/fit/sequence_fit.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/report/chart.h"
 #include "invsim/report/fit_writer.h"
 #include "invsim/report/run_folder.h"
@@ -27,7 +28,6 @@
 namespace invsim {
 namespace {
 
-constexpr char kResolved[] = "config.resolved.toml";
 // What a resumed run may be asked anew; anything else would make another run
 // of it. The iterations of an optimiser are in the list, too.
 const std::vector<std::string> kMayChange = {"fit.time_limit",
@@ -180,9 +180,13 @@ void FitCommand::TakeOverConfiguration(const std::string& path) {
 RunFolder FitCommand::OpenFolder(const CommandContext& context) {
   const std::string path =
       context.out.empty() ? "invsim_" + name() : context.out;
-  if (!resume_) return RunFolder(path, force_);
+  if (!resume_) {
+    std::vector<std::string> inputs = PathsOf(input_);
+    inputs.insert(inputs.end(), {scene_.material, context.config});
+    return RunFolder(path, force_, inputs);
+  }
   RunFolder folder = RunFolder::Reopen(path);
-  TakeOverConfiguration(folder.File(kResolved));
+  TakeOverConfiguration(folder.File(kResolvedConfig));
   return folder;
 }
 
@@ -270,7 +274,7 @@ ExitCode FitCommand::Run(const CommandContext& context) {
   // Refuses now what stage 1 need not be waited for.
   ChosenEffects(scene_, data.garment, data.material);
   const RunFolder folder = resumed ? *resumed : OpenFolder(context);
-  folder.Write(kResolved, ResolvedToml(*context.options));
+  folder.Write(kResolvedConfig, ResolvedToml(*context.options));
   FitReport report = StartReport(data);
   FrameWriter writer(folder,
                      data.garment,

@@ -12,6 +12,7 @@
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
 #include "invsim/base/progress.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/report/gallery_report.h"
 #include "invsim/report/hard_map_report.h"
 #include "invsim/report/run_folder.h"
@@ -149,8 +150,9 @@ ExitCode GalleryCommand::Run(const CommandContext& context) {
   const InterruptGuard interrupt;
   std::optional<RunFolder> folder;
   if (!context.out.empty()) {
-    folder.emplace(context.out, force_);
-    folder->Write("config.resolved.toml", ResolvedToml(*context.options));
+    folder.emplace(
+        context.out, force_, std::vector<std::string>{context.config});
+    folder->Write(kResolvedConfig, ResolvedToml(*context.options));
   }
   RunFolder* out = folder ? &*folder : nullptr;
   return options_.map == "none" ? RunCases(context, out) : RunMap(context, out);

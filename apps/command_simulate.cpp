@@ -14,6 +14,7 @@
 #include "invsim/base/progress.h"
 #include "invsim/base/stopwatch.h"
 #include "invsim/base/threads.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/report/run_folder.h"
 #include "invsim/report/simulation_writer.h"
 #include "invsim/sim/relaxation.h"
@@ -147,8 +148,13 @@ ExitCode SimulateCommand::Run(const CommandContext& context) {
   Simulator simulator(
       MakeSetup(scene_, scene.body, scene.garment, scene.material));
   const RunFolder folder(context.out.empty() ? kSimulateOut : context.out,
-                         force_);
-  folder.Write("config.resolved.toml", ResolvedToml(*context.options));
+                         force_,
+                         {input_.body,
+                          input_.motion.name,
+                          input_.garment,
+                          scene_.material,
+                          context.config});
+  folder.Write(kResolvedConfig, ResolvedToml(*context.options));
   WriteMotion(folder.File("body.npz"), scene.motion);
   SimulationReport report = StartReport(scene, simulator);
   FrameWriter writer(folder,

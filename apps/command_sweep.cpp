@@ -26,6 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kSweepOut[] = "invsim_sweep";
+constexpr const char* kFiles[] = {
+    "sweep.json", "sweep.csv", "sweep.svg", "sweep.html"};
 constexpr char kClothRms[] = "cloth_rms_mm";
 constexpr char kClothSurface[] = "cloth_surface_mm";
 constexpr char kBodyError[] = "body_v2v_mean_mm";
@@ -50,6 +52,7 @@ class SweepCommand : public Command {
   ExitCode Run(const CommandContext& context) override;
 
  private:
+  void CheckFolder(const fs::path& out) const;
   void CheckSettings() const;
   bool CheckKeys(const SweepRuns& runs, const SweepSetting& setting) const;
   bool RunAll(const SweepRuns& runs, std::ostream* log) const;
@@ -71,6 +74,16 @@ class SweepCommand : public Command {
   SweepPlan plan_;
   bool force_ = false;
 };
+
+// Its own files are replaced whenever it is gone on with, others never.
+void SweepCommand::CheckFolder(const fs::path& out) const {
+  if (fs::exists(out) && !fs::is_directory(out))
+    throw UsageError(out.string() + ": is a file, expected a folder");
+  for (const char* file : kFiles)
+    if (fs::exists(out / file) && !fs::is_directory(out / "runs"))
+      throw UsageError((out / file).string() +
+                       ": is of no sweep here; choose another --out");
+}
 
 // Reads all settings as their runs will, so that one that cannot be asked for
 // is known before anything runs.
@@ -269,8 +282,7 @@ ExitCode SweepCommand::Run(const CommandContext& context) {
     throw UsageError(
         "sweep: nothing to hold runs against; expected a [reference] or "
         "sweep.truth");
-  if (fs::exists(out) && !fs::is_directory(out))
-    throw UsageError(out.string() + ": is a file, expected a folder");
+  CheckFolder(out);
   CheckSettings();
   if (!options_.truth.empty())
     truth_ = LoadReference(options_.truth, options_.body);

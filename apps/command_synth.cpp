@@ -148,6 +148,11 @@ ExitCode SynthCommand::WriteSequence(const CommandContext& context) {
   sequence_.seed = static_cast<std::uint64_t>(context.run.seed);
   sequence_.config = ResolvedToml(*context.options);
   sequence_.force = force_;
+  sequence_.inputs = {options_.body,
+                      options_.motion.name,
+                      options_.garment,
+                      physics_.material,
+                      context.config};
   std::ostream* log = context.verbosity < 0 ? nullptr : &std::cerr;
   std::string title;
   std::unique_ptr<Progress> progress;

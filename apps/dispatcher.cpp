@@ -24,7 +24,7 @@ class Subcommand {
         app_(program->add_subcommand(command->name(), command->doc())),
         flags_(app_) {
     command->AddArguments(app_, &flags_);
-    app_->add_option("--config", config_file_, "TOML file of options")
+    app_->add_option("--config", context_.config, "TOML file of options")
         ->option_text("FILE.toml");
     app_->add_option(
             "--set", assignments_, "set one option, as often as needed")
@@ -55,7 +55,8 @@ class Subcommand {
  private:
   Config ReadConfig() const {
     Config config;
-    if (!config_file_.empty()) config.Merge(Config::FromFile(config_file_));
+    if (!context_.config.empty())
+      config.Merge(Config::FromFile(context_.config));
     for (const std::string& assignment : assignments_) {
       config.Assign(assignment, "--set");
     }
@@ -66,7 +67,6 @@ class Subcommand {
   Command* command_;
   CLI::App* app_;
   KeyFlags flags_;
-  std::string config_file_;
   std::vector<std::string> assignments_;
   bool quiet_ = false;
   int verbose_ = 0;

@@ -3,12 +3,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "inputs.h"
 #include "invsim/base/error.h"
-#include "invsim/io/file.h"
+#include "invsim/io/json_record.h"
 #include "invsim/io/obj.h"
 #include "invsim/io/ply.h"
 #include "invsim/io/point_cloud.h"
@@ -18,18 +17,9 @@ namespace invsim {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
-Json ReadJson(const fs::path& path) {
-  if (!fs::exists(path)) return Json::object();
-  const Json json = Json::parse(ReadFileBytes(path.string()), nullptr, false);
-  if (!json.is_object())
-    throw InputError(path.string() + ": expected a JSON object");
-  return json;
-}
-
-std::string BodyBeside(const fs::path& folder, const Json& scene) {
-  const std::string name = scene.value("body", "");
+std::string BodyBeside(const fs::path& folder, const JsonRecord& scene) {
+  const std::string name = scene.Text("body");
   if (!name.empty() && fs::exists(folder / name))
     return (folder / name).string();
   throw UsageError(folder.string() + ": holds no body" +
@@ -84,9 +74,9 @@ LoadedReference LoadReference(const std::string& truth,
   const bool folder_given = fs::is_directory(given);
   const fs::path file = folder_given ? given / "truth.npz" : given;
   const fs::path folder = folder_given ? given : given.parent_path();
-  const Json scene = ReadJson(folder / "scene.json");
+  const JsonRecord scene = JsonRecord::Read((folder / "scene.json").string());
   LoadedReference loaded;
-  loaded.garment = fs::path(scene.value("garment", "")).stem().string();
+  loaded.garment = fs::path(scene.Text("garment")).stem().string();
   loaded.body = std::make_unique<BodyModel>(
       LoadBody(body.empty() ? BodyBeside(folder, scene) : body));
   loaded.reference = std::make_unique<Reference>(
@@ -101,11 +91,9 @@ Estimate LoadEstimate(const std::string& run) {
   Estimate estimate;
   estimate.body = ReadMotion((folder / "body.npz").string());
   estimate.cloth = [folder](int t) { return ReadCloth(folder, t); };
-  const Json report = ReadJson(folder / "report.json");
-  if (report.contains("inputs") && report["inputs"].is_object() &&
-      report["inputs"].contains("friction") &&
-      report["inputs"]["friction"].is_number())
-    estimate.friction = report["inputs"]["friction"].get<double>();
+  const JsonRecord report = JsonRecord::Read((folder / "report.json").string());
+  if (report.Has("inputs.friction"))
+    estimate.friction = report.Number("inputs.friction", 0);
   return estimate;
 }
 

@@ -152,6 +152,10 @@ void AddFitInputFlags(KeyFlags* flags) {
   flags->Add("--substeps", "step.substeps", "steps per frame");
 }
 
+std::vector<std::string> PathsOf(const FitInput& input) {
+  return {input.points, input.body, input.garment, input.start};
+}
+
 FitData LoadFitData(const FitInput& input,
                     const std::string& material,
                     const CommandContext& context) {

@@ -35,6 +35,9 @@ struct FitInput {
 void Describe(OptionTable* table, FitInput* options);
 void AddFitInputFlags(KeyFlags* flags);
 
+// What of it may be paths.
+std::vector<std::string> PathsOf(const FitInput& input);
+
 struct FitData {
   std::vector<Points> clouds;  // metres, y up
   int dropped = 0;             // points that were not finite

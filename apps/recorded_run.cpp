@@ -12,6 +12,7 @@
 #include "exit_code.h"
 #include "invsim/base/error.h"
 #include "invsim/io/file.h"
+#include "invsim/io/json_record.h"
 
 namespace invsim {
 namespace {
@@ -19,11 +20,25 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// An empty object if there is no record that can be read.
-Json ReadRecord(const std::string& path) {
-  if (!fs::exists(path)) return Json::object();
-  Json json = Json::parse(ReadFileBytes(path), nullptr, false);
-  return json.is_object() ? json : Json::object();
+// A log begins with the command it is of.
+constexpr char kLogStart[] = "$ invsim ";
+
+// An empty one if the run is not done. Throws UsageError if the file is
+// something else.
+JsonRecord ReadRecord(const std::string& path) {
+  JsonRecord record = JsonRecord::Read(path);
+  if (fs::exists(path) && !(record.Has("exit_code") && record.Has("arguments")))
+    throw UsageError(path +
+                     ": is no record of a run; choose another --out, nothing "
+                     "is replaced unasked");
+  return record;
+}
+
+void CheckLog(const std::string& path) {
+  if (fs::exists(path) && !ReadFileBytes(path).starts_with(kLogStart))
+    throw UsageError(path +
+                     ": is no log of a run; choose another --out, nothing is "
+                     "replaced unasked");
 }
 
 }  // namespace
@@ -33,20 +48,21 @@ RecordedRun::RecordedRun(std::string path, std::vector<std::string> arguments)
 
 RunOutcome RecordedRun::Run() const {
   const std::string record = path_ + ".json";
-  const Json done = ReadRecord(record);
-  if (done.contains("exit_code")) {
-    if (done.value("arguments", std::vector<std::string>()) != arguments_)
+  const JsonRecord done = ReadRecord(record);
+  if (done.Has("exit_code")) {
+    if (done.Texts("arguments") != arguments_)
       throw UsageError(record +
                        ": done with other options than are asked for now; "
                        "choose another --out, or --force to run all again");
-    return {done.value("exit_code", -1),
-            done.value("wall_seconds", 0.0),
-            done.value("cpu_seconds", 0.0)};
+    return {done.Integer("exit_code", -1),
+            done.Number("wall_seconds", 0),
+            done.Number("cpu_seconds", 0)};
   }
+  CheckLog(path_ + ".log");
   fs::create_directories(fs::path(path_).parent_path());
-  fs::remove_all(path_);  // what an interrupted run left
+  // It replaces what an interrupted run left, and nothing else.
   std::vector<std::string> arguments = arguments_;
-  arguments.insert(arguments.end(), {"--out", path_});
+  arguments.insert(arguments.end(), {"--force", "--out", path_});
   const ChildResult child = RunChild(arguments, path_ + ".log");
   const RunOutcome run{child.exit_code, child.wall_seconds, child.cpu_seconds};
   if (run.exit_code == static_cast<int>(ExitCode::kInterrupted)) return run;
@@ -60,18 +76,18 @@ RunOutcome RecordedRun::Run() const {
 }
 
 void RecordedRun::Forget() const {
-  for (const char* extension : {".json", ".log", ""})
-    fs::remove_all(path_ + extension);
+  ReadRecord(path_ + ".json");  // not to remove what is none
+  fs::remove(path_ + ".json");
 }
 
 void RecordedRun::ForgetIfKilled() const {
   const int signal =
-      SignalOf(ReadRecord(path_ + ".json").value("exit_code", 0));
+      SignalOf(ReadRecord(path_ + ".json").Integer("exit_code", 0));
   if (signal == SIGKILL || signal == SIGTERM || signal == SIGHUP) Forget();
 }
 
 std::string RecordedRun::LastLine() const {
-  const int exit_code = ReadRecord(path_ + ".json").value("exit_code", 0);
+  const int exit_code = ReadRecord(path_ + ".json").Integer("exit_code", 0);
   if (const int signal = SignalOf(exit_code))
     return "ended by signal " + std::to_string(signal) + " (" +
            strsignal(signal) + ")";
@@ -80,7 +96,8 @@ std::string RecordedRun::LastLine() const {
   std::istringstream text(ReadFileBytes(log));
   std::string last;
   for (std::string line; std::getline(text, line);)
-    if (!line.empty() && line != path_) last = line;
+    if (!line.empty() && line != path_ && !line.starts_with(kLogStart))
+      last = line;
   return last;
 }
 

@@ -7,7 +7,9 @@
 //
 //   PATH/       what it left
 //   PATH.json   its arguments, exit code and times, once it is done
-//   PATH.log    what it printed
+//   PATH.log    the command, and what it printed
+//
+// What of these names is not of an earlier run is never replaced.
 
 #include <string>
 #include <vector>
@@ -29,10 +31,11 @@ class RecordedRun {
   const std::string& folder() const { return path_; }
 
   // Runs it, unless it is done. Exit code 130 (interrupted) leaves it undone.
-  // Throws UsageError if it was done with other arguments.
+  // Throws UsageError if it was done with other arguments, or if there is
+  // something of these names that is no record or log.
   RunOutcome Run() const;
 
-  // Removes what is there of it.
+  // Forgets that it was done; it will replace what it left.
   void Forget() const;
   // The same if somebody ended it by a signal: that is no result.
   void ForgetIfKilled() const;

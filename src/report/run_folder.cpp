@@ -5,8 +5,10 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <vector>
 
 #include "invsim/base/error.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/io/file.h"
 
 namespace invsim {
@@ -20,10 +22,10 @@ constexpr const char* kFiles[] = {"report.json",
                                   "iterations.csv",
                                   "comparison.csv",
                                   "comparison.svg",
-                                  "config.resolved.toml",
                                   "body.npz",
                                   "cloth.pc2",
-                                  "scene.glb"};
+                                  "scene.glb",
+                                  kResolvedConfig};
 constexpr const char* kFrameFolders[] = {"body", "cloth"};
 constexpr const char* kCheckpoint = "checkpoint";
 
@@ -35,19 +37,24 @@ bool IsFrame(const fs::path& file) {
          });
 }
 
-void RemoveEarlierRun(const fs::path& folder) {
-  for (const char* file : kFiles) fs::remove(folder / file);
+// What a run may have left in the folder.
+std::vector<fs::path> FilesOfRun(const fs::path& folder) {
+  std::vector<fs::path> files = {folder / kCheckpoint};
   for (const char* kind : kFrameFolders) {
     if (!fs::is_directory(folder / kind)) continue;
     for (const auto& entry : fs::directory_iterator(folder / kind))
-      if (IsFrame(entry.path())) fs::remove(entry.path());
+      if (IsFrame(entry.path())) files.push_back(entry.path());
   }
-  fs::remove_all(folder / kCheckpoint);
+  for (const char* file : kFiles) files.push_back(folder / file);
+  return files;
 }
 
 }  // namespace
 
-RunFolder::RunFolder(const std::string& path, bool force) : path_(path) {
+RunFolder::RunFolder(const std::string& path,
+                     bool force,
+                     const std::vector<std::string>& inputs)
+    : path_(path) {
   try {
     if (fs::exists(path) && !fs::is_directory(path))
       throw UsageError(path + ": is a file, expected a folder for the results");
@@ -57,7 +64,7 @@ RunFolder::RunFolder(const std::string& path, bool force) : path_(path) {
         throw UsageError(path +
                          ": the folder is not empty; choose another one, or "
                          "--force to replace the run in it");
-      RemoveEarlierRun(path);
+      RemoveEarlierResults(path, FilesOfRun(path), inputs);
     }
     // Better to learn now than after an hour that nothing can be written.
     const std::string probe = File(".writable");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "invsim/base/error.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/io/file.h"
 #include "invsim/io/obj.h"
 #include "invsim/io/ply.h"
@@ -23,11 +24,23 @@ constexpr const char* kFiles[] = {"garment.obj",
                                   "body_model.npz",
                                   "truth.npz",
                                   "scene.json",
-                                  "config.resolved.toml"};
+                                  kResolvedConfig};
 constexpr char kPoints[] = "points";
 
+// What a sequence may have left in the directory.
+std::vector<fs::path> FilesOfSequence(const fs::path& directory) {
+  std::vector<fs::path> files;
+  if (fs::is_directory(directory / kPoints))
+    for (const auto& entry : fs::directory_iterator(directory / kPoints))
+      if (entry.path().extension() == ".ply") files.push_back(entry.path());
+  for (const char* file : kFiles) files.push_back(directory / file);
+  return files;
+}
+
 // Makes the directory, empty but for what is not ours.
-void PrepareDirectory(const std::string& path, bool force) {
+void PrepareDirectory(const std::string& path,
+                      bool force,
+                      const std::vector<std::string>& inputs) {
   try {
     if (fs::exists(path) && !fs::is_directory(path))
       throw UsageError(path + ": is a file, expected a folder");
@@ -37,12 +50,7 @@ void PrepareDirectory(const std::string& path, bool force) {
       throw UsageError(path +
                        ": the folder is not empty; choose another one, or "
                        "--force to replace the sequence in it");
-    for (const char* file : kFiles) fs::remove(fs::path(path) / file);
-    if (!fs::is_directory(fs::path(path) / kPoints)) return;
-    std::vector<fs::path> old;
-    for (const auto& entry : fs::directory_iterator(fs::path(path) / kPoints))
-      if (entry.path().extension() == ".ply") old.push_back(entry.path());
-    for (const fs::path& file : old) fs::remove(file);
+    RemoveEarlierResults(path, FilesOfSequence(path), inputs);
   } catch (const fs::filesystem_error& error) {
     throw InputError(path + ": cannot be used: " + error.code().message());
   }
@@ -198,19 +206,18 @@ ClothedSequenceResult MakeClothedSequence(
     const ClothedSequenceOptions& options,
     const std::string& directory,
     const ClothedSequenceObserver& observer) {
-  PrepareDirectory(directory, options.force);
+  PrepareDirectory(directory, options.force, options.inputs);
   Truth truth;
   truth.body = scene.motion;
   const ClothedSequenceResult made =
       Recording(scene, physics, options, observer).Run(&truth);
   if (made.status() != RunStatus::kComplete) return made;
   const fs::path folder(directory);
+  WriteFileBytes((folder / kResolvedConfig).string(), options.config);
   WriteMeasurements(scene, options, truth, folder / kPoints);
   WriteGarment((folder / "garment.obj").string(), scene.garment);
   WriteBodyModel((folder / "body_model.npz").string(), scene.body);
   WriteTruth((folder / "truth.npz").string(), truth);
-  if (!options.config.empty())
-    WriteFileBytes((folder / "config.resolved.toml").string(), options.config);
   WriteFileBytes((folder / "scene.json").string(),
                  SceneJson(scene, physics, options, made));
   return made;

@@ -139,6 +139,31 @@ TEST_F(EvalCommandTest, ABrokenRunDoesNotKeepOthersFromTheTable) {
   EXPECT_EQ(none.out, "");
 }
 
+TEST_F(EvalCommandTest, NamesTheKeyOfAnotherType) {
+  const std::string scene = (directory_ / "truth/scene.json").string();
+  const std::string report = (directory_ / "run/report.json").string();
+  const auto expect = [&](const std::string& path,
+                          const std::string& text,
+                          const std::string& message) {
+    WriteFileBytes(path, text);
+    const CommandResult result = Eval("--run " + In("run"));
+    EXPECT_EQ(result.exit_code, 3) << text;
+    EXPECT_THAT(result.err, HasSubstr(path + ": " + message));
+    EXPECT_EQ(result.out, "");
+  };
+  expect(scene, "{\"body\": 5}", "body: expected a text, found a number");
+  expect(scene, "{\"garment\": [1]}", "garment: expected a text, found a list");
+  expect(scene, "[]", "expected a JSON object");
+  WriteFileBytes(scene, "{\"garment\": \"vest\"}");
+  const std::string more = "--body mannequin --run " + In("run");
+  WriteFileBytes(report, "{\"inputs\": {\"friction\": \"high\"}}");
+  const CommandResult result = Eval(more);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(
+      result.err,
+      HasSubstr(report + ": inputs.friction: expected a number, found a text"));
+}
+
 TEST_F(EvalCommandTest, SaysWhatDoesNotFit) {
   const auto expect =
       [&](const std::string& arguments, int code, const std::string& message) {

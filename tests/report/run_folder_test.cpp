@@ -51,6 +51,7 @@ TEST_F(RunFolderTest, TakesAnEmptyFolderButNoFullOne) {
 
 TEST_F(RunFolderTest, ForceRemovesTheEarlierRunAndNothingElse) {
   const RunFolder first(root_.string(), false);
+  first.Write("config.resolved.toml", "");
   first.Write("report.json", "old");
   WriteFileBytes(first.Frame("cloth", 99), "old");
   WriteFileBytes(first.File("cloth/notes.txt"), "keep");
@@ -60,6 +61,21 @@ TEST_F(RunFolderTest, ForceRemovesTheEarlierRunAndNothingElse) {
   EXPECT_FALSE(fs::exists(root_ / "cloth/000099.ply"));
   EXPECT_TRUE(fs::exists(root_ / "cloth/notes.txt"));
   EXPECT_TRUE(fs::exists(root_ / "mine.txt"));
+}
+
+TEST_F(RunFolderTest, ForceRemovesNeitherInputsNorWhatIsNoRun) {
+  const RunFolder first(root_.string(), false);
+  WriteFileBytes(first.Frame("cloth", 0), "points");
+  first.Write("body.npz", "model");
+  EXPECT_THROW(RunFolder(root_.string(), true), UsageError);
+  first.Write("config.resolved.toml", "");
+  for (const char* input : {"cloth", "cloth/000000.ply", "body.npz"})
+    EXPECT_THROW(RunFolder(root_.string(), true, {first.File(input)}),
+                 UsageError)
+        << input;
+  EXPECT_TRUE(fs::exists(first.File("cloth/000000.ply")));
+  EXPECT_TRUE(fs::exists(first.File("body.npz")));
+  EXPECT_NO_THROW(RunFolder(root_.string(), true, {first.File("mine.obj")}));
 }
 
 TEST_F(RunFolderTest, RefusesAFileAndWhatLiesUnderOne) {

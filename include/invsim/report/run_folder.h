@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace invsim {
 
@@ -26,8 +27,13 @@ class RunFolder {
   // something else of that name, or files in it and not `force`; InputError if
   // it cannot be made or written to. With `force` the files of an earlier run,
   // those named above, are removed, so that no frame of it is left among the
-  // new ones; anything else stays.
-  RunFolder(const std::string& path, bool force);
+  // new ones; anything else stays. UsageError, and all stays, if there is no
+  // config.resolved.toml in it (write that first: without it the folder is
+  // taken for the user's own), or if one of `inputs`, the paths that the run
+  // reads, would be removed (io/earlier_results.h).
+  RunFolder(const std::string& path,
+            bool force,
+            const std::vector<std::string>& inputs = {});
 
   const std::string& path() const { return path_; }
   // "PATH/name".

@@ -22,13 +22,14 @@
 //   truth.npz          see study/truth.h
 //   scene.json         frame rate, names, fabric, friction, noise, seed: what
 //                      made the sequence and may be known of it
-//   config.resolved.toml   `config`, if there is one
+//   config.resolved.toml   `config`
 //
 // Files appear when the simulation has ended well; until then there is none.
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "invsim/body/motion.h"
 #include "invsim/sim/relaxation.h"
@@ -55,8 +56,10 @@ struct ClothedSequenceOptions {
   MeasurementOptions measurement;
   std::uint64_t seed = 0;
   std::string config = "";  // text of config.resolved.toml
-  // Replace an earlier sequence in the directory.
+  // Replace an earlier sequence in the directory, unless one of these paths
+  // would be lost: what the sequence is made from (io/earlier_results.h).
   bool force = false;
+  std::vector<std::string> inputs = {};
 };
 
 struct ClothedSequenceResult {
@@ -74,7 +77,8 @@ using ClothedSequenceObserver = std::function<void(
     const char* what, int done, int total, const FrameStats& stats)>;
 
 // Throws UsageError if there is something in the directory already (and not
-// `force`), InputError if it cannot be written or the inputs do not fit.
+// `force`, or something that is not ours to replace), InputError if it cannot
+// be written or the inputs do not fit.
 ClothedSequenceResult MakeClothedSequence(
     const ClothedSequenceScene& scene,
     const SceneOptions& physics,

@@ -150,7 +150,7 @@ Scored Initializer::FitFrame(int t,
   BodySequence x;
   x.shape = start.shape;
   x.Append(start);
-  Objective objective(options_.priors, free, &term, &x);
+  Objective objective(options_.priors, free, &term, &x, body_);
   CeresOptions ceres;
   ceres.iterations = iterations;
   ceres.function_tolerance = 1e-3;
@@ -253,7 +253,8 @@ BodyInit Initializer::Run() {
   for (int t = 0; t < n; ++t)
     fine.push_back(Subsample(clouds_[t], options_.fine_points, seed_, t));
   BodyPointsTerm term(body_, covered_, fine, options_.points, seed_);
-  Objective objective(options_.priors, FreeParameters{}, &term, &sequence_);
+  Objective objective(
+      options_.priors, FreeParameters{}, &term, &sequence_, body_);
   CeresOptions ceres;
   ceres.iterations = options_.iterations;
   result.refinement = MakeLevenbergMarquardt(ceres)->Run(

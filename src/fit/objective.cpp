@@ -99,10 +99,9 @@ struct Objective::Impl : public ceres::EvaluationCallback {
   Impl(const PriorOptions& prior_options,
        DataTerm* data_term,
        BodySequence* at,
-       const BodyModel* model)
+       const BodyModel& model)
       : priors(prior_options), term(data_term), x(at), body(model) {
-    if (body && priors.overlap > 0)
-      overlap = std::make_unique<BodyOverlap>(*body);
+    if (priors.overlap > 0) overlap = std::make_unique<BodyOverlap>(body);
     ceres::Problem::Options options;
     options.evaluation_callback = this;
     problem = std::make_unique<ceres::Problem>(options);
@@ -118,7 +117,7 @@ struct Objective::Impl : public ceres::EvaluationCallback {
   PriorOptions priors;
   DataTerm* term;
   BodySequence* x;
-  const BodyModel* body;
+  const BodyModel& body;
   std::unique_ptr<BodyOverlap> overlap;  // null: not looked at
   DataState data;
   double cost_limit = std::numeric_limits<double>::infinity();
@@ -186,7 +185,7 @@ void Objective::Impl::AddOverlap() {
   if (!overlap || overlap->pairs().empty()) return;
   const double scale = std::sqrt(priors.overlap) / priors.depth;
   for (PoseVector& pose : x->poses)
-    problem->AddResidualBlock(NewOverlapCost(scale, body, overlap.get()),
+    problem->AddResidualBlock(NewOverlapCost(scale, &body, overlap.get()),
                               nullptr,
                               x->shape.data(),
                               pose.data());
@@ -220,7 +219,7 @@ Objective::Objective(const PriorOptions& priors,
                      const FreeParameters& free,
                      DataTerm* data,
                      BodySequence* x,
-                     const BodyModel* body)
+                     const BodyModel& body)
     : impl_(std::make_unique<Impl>(priors, data, x, body)) {
   impl_->AddParameters(free);
   impl_->AddData();
@@ -253,7 +252,7 @@ CostTerms Objective::terms() const {
   for (int t = 0; impl_->overlap && t < x.num_frames(); ++t)
     terms.overlap +=
         0.5 * priors.overlap / (priors.depth * priors.depth) *
-        impl_->overlap->Depths(impl_->body->Joints(x.Frame(t)), nullptr)
+        impl_->overlap->Depths(impl_->body.Joints(x.Frame(t)), nullptr)
             .squaredNorm();
   const double turn = 0.5 * priors.smoothness / (priors.turn * priors.turn);
   const double shift = 0.5 * priors.smoothness / (priors.shift * priors.shift);

@@ -247,13 +247,13 @@ OptimizerSummary Fitter::Optimize(BodySequence* body) {
       options_.priors,
       FreeParameters{},
       remembered ? static_cast<DataTerm*>(remembered.get()) : term_.get(),
-      body);
+      body,
+      scene_.body);
   const std::unique_ptr<Optimizer> optimizer =
       options_.optimizers.at(options_.optimizer)->Make();
   const OptimizerSummary* kept = result_.optimizer();
-  Prospects prospects(kept && optimizer->first_step_gains_most()
-                          ? kept->final_cost
-                          : kNoLimit);
+  Prospects prospects(
+      kept && optimizer->first_step_gains_most() ? kept->final_cost : kNoLimit);
   const auto observer = [&](const IterationRecord& record) {
     const bool written = !remembered || remembered->error().empty();
     prospects.Update(record);
@@ -311,7 +311,8 @@ void Fitter::FindUncertain() {
       options_.priors,
       FreeParameters{},
       remembered ? static_cast<DataTerm*>(remembered.get()) : term_.get(),
-      &result_.body);
+      &result_.body,
+      scene_.body);
   result_.uncertainty = FindUncertainty(options_.priors, &objective);
   result_.seconds.uncertainty = watch.seconds();
 }

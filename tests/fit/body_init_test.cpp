@@ -89,6 +89,24 @@ TEST_F(Init, IsTheSameForTheSameSeed) {
   EXPECT_EQ(a.body.poses[0], b.body.poses[0]);
 }
 
+// Points of a left forearm in the trunk.
+TEST_F(Init, PartsOfTheBodyAreMovedOutOfEachOther) {
+  BodyParameters truth;
+  truth.pose[3 * 16 + 2] = -1.2;
+  truth.pose[3 * 18 + 2] = -1.6;
+  clouds_ = {person_.Scan(truth, 3000, 0)};
+  options_.headings = 1;
+  options_.coarse_points = options_.fine_points = 150;
+  options_.iterations = 3;
+  const auto overlap = [&](double weight) {
+    options_.priors.overlap = weight;
+    return Run().refinement.iterations.back().terms.overlap / weight;
+  };
+  const double light = overlap(1e-3);
+  EXPECT_GT(light, 0);
+  EXPECT_LT(overlap(100), 0.5 * light);
+}
+
 TEST_F(Init, RefusesAWrongUnitAndNoFrames) {
   for (Points& cloud : clouds_) cloud *= 1000;  // millimetres
   try {

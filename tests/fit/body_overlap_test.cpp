@@ -67,7 +67,7 @@ TEST(BodyOverlap, GradientOfTheObjectiveMatchesDifferences) {
   BodySequence x;
   x.Append(ArmThroughTrunk());
   ToyTerm term(x);  // no gradient here
-  Objective objective(priors, {}, &term, &x, &body);
+  Objective objective(priors, {}, &term, &x, body);
   double cost;
   std::vector<double> gradient;
   ASSERT_TRUE(objective.Evaluate(&cost, &gradient));

@@ -128,7 +128,7 @@ class CeresTest : public ::testing::TestWithParam<std::string> {
   OptimizerSummary Minimize(const std::string& name,
                             DataTerm* term,
                             int last_iteration = 1000) {
-    Objective objective(priors_, free_, term, &x_);
+    Objective objective(priors_, free_, term, &x_, ToyBody());
     steps_.clear();
     return Make(name, options_)
         ->Run(&objective, [&](const IterationRecord& record) {
@@ -211,7 +211,7 @@ TEST_P(EveryCeresOptimizer, RecordsBelongToThePointKept) {
   for (CeresStep& step : steps_) {
     const IterationRecord& record = step.record;
     ToyTerm same(truth);
-    Objective objective(priors_, free_, &same, &step.x);
+    Objective objective(priors_, free_, &same, &step.x, ToyBody());
     double cost = 0;
     std::vector<double> gradient;
     ASSERT_TRUE(objective.Evaluate(&cost, &gradient));
@@ -376,7 +376,7 @@ TEST_P(EveryCeresOptimizer, OnlyATrustRegionGivesUpTrials) {
 // What is asked of the objective later may cost anything.
 TEST_P(EveryCeresOptimizer, LeavesNoLimitBehind) {
   ToyTerm term(CeresSequence(1, 0.3));
-  Objective objective(priors_, free_, &term, &x_);
+  Objective objective(priors_, free_, &term, &x_, ToyBody());
   const OptimizerSummary summary =
       Make(GetParam(), options_)->Run(&objective, {});
   x_.shape.setConstant(-7);

@@ -180,7 +180,7 @@ TEST_F(ClothPoints, WholeObjectiveMatchesDifferencesInEveryBlock) {
     options_.lead.hold_frames = history == History::kCarried ? 1 : 0;
     ClothPointsTerm term = MakeTerm(kFrames);
     BodySequence x = start_;
-    Objective objective(priors, {}, &term, &x, &person_.body());
+    Objective objective(priors, {}, &term, &x, person_.body());
     double unused = 0;
     std::vector<double> gradient;
     ASSERT_TRUE(objective.Evaluate(&unused, &gradient));

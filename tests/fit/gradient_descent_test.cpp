@@ -44,7 +44,7 @@ class GradientDescentTest : public ::testing::Test {
       const std::function<void(const IterationRecord&, Objective*)>& see = {}) {
     PriorOptions no_priors;
     no_priors.smoothness = no_priors.shape = no_priors.pose = 0;
-    Objective objective(no_priors, free_, term, &x_);
+    Objective objective(no_priors, free_, term, &x_, ToyBody());
     return MakeGradientDescent(options_)->Run(
         &objective, [&](const IterationRecord& record) {
           if (see) see(record, &objective);

@@ -26,7 +26,7 @@ BodySequence RandomSequence(int frames, double size, std::uint64_t seed) {
 TEST(Objective, GradientMatchesDifferencesInEveryBlock) {
   ToyTerm term(RandomSequence(4, 0.3, 1));
   BodySequence x = RandomSequence(4, 0.3, 2);
-  Objective objective({}, {}, &term, &x);
+  Objective objective({}, {}, &term, &x, ToyBody());
   double cost = 0;
   std::vector<double> gradient;
   ASSERT_TRUE(objective.Evaluate(&cost, &gradient));
@@ -52,7 +52,7 @@ TEST(Objective, GradientMatchesDifferencesInEveryBlock) {
 TEST(Objective, TermsAddUpToTheCostWithAndWithoutDerivatives) {
   ToyTerm term(RandomSequence(5, 0.3, 3));
   BodySequence x = RandomSequence(5, 0.5, 4);
-  Objective objective({}, {}, &term, &x);
+  Objective objective({}, {}, &term, &x, ToyBody());
   double alone = 0, with = 0;
   std::vector<double> gradient;
   ASSERT_TRUE(objective.Evaluate(&alone, nullptr));
@@ -69,7 +69,7 @@ TEST(Objective, FixedUnknownsHaveNoGradient) {
   FreeParameters free;
   free.shape = false;
   for (int j = 3; j < kNumJoints; ++j) free.joints[j] = false;
-  Objective objective({}, free, &term, &x);
+  Objective objective({}, free, &term, &x, ToyBody());
   double cost = 0;
   std::vector<double> gradient;
   ASSERT_TRUE(objective.Evaluate(&cost, &gradient));
@@ -80,7 +80,7 @@ TEST(Objective, SaysWhenItCannotBeEvaluated) {
   ToyTerm term(RandomSequence(3, 0.1, 3));
   BodySequence x = RandomSequence(3, 0.1, 4);
   term.wall = x.translations[0][0] - 1;
-  Objective objective({}, {}, &term, &x);
+  Objective objective({}, {}, &term, &x, ToyBody());
   double cost = 0;
   EXPECT_FALSE(objective.Evaluate(&cost, nullptr));
   EXPECT_EQ(objective.counts().failed, 1);
@@ -92,7 +92,7 @@ TEST(Objective, WorksWithFewerFramesThanSmoothnessNeeds) {
   for (const int frames : {1, 2}) {
     ToyTerm term(RandomSequence(frames, 0.1, 3));
     BodySequence x = RandomSequence(frames, 0.1, 4);
-    Objective objective({}, {}, &term, &x);
+    Objective objective({}, {}, &term, &x, ToyBody());
     double cost = 0;
     EXPECT_TRUE(objective.Evaluate(&cost, nullptr));
     EXPECT_EQ(objective.terms().smoothness, 0);

@@ -53,7 +53,7 @@ class EveryOptimizer : public ::testing::TestWithParam<std::string> {
 TEST_P(EveryOptimizer, FindsTheMinimum) {
   ToyTerm term(Truth(3));
   BodySequence x = Start(3);
-  Objective objective(NoPriors(), {}, &term, &x);
+  Objective objective(NoPriors(), {}, &term, &x, ToyBody());
   int seen = 0;
   const OptimizerSummary summary =
       Make(GetParam(), Settings())
@@ -74,7 +74,7 @@ TEST_P(EveryOptimizer, FindsTheMinimum) {
 TEST_P(EveryOptimizer, StopsWhenAsked) {
   ToyTerm term(Truth(3));
   BodySequence x = Start(3);
-  Objective objective(NoPriors(), {}, &term, &x);
+  Objective objective(NoPriors(), {}, &term, &x, ToyBody());
   const OptimizerSummary summary =
       Make(GetParam(), Settings())
           ->Run(&objective,
@@ -86,7 +86,7 @@ TEST_P(EveryOptimizer, StopsWhenAsked) {
 TEST_P(EveryOptimizer, NamesTheIterationLimit) {
   ToyTerm term(Truth(3));
   BodySequence x = Start(3);
-  Objective objective(NoPriors(), {}, &term, &x);
+  Objective objective(NoPriors(), {}, &term, &x, ToyBody());
   const OptimizerSummary summary =
       Make(GetParam(), Settings() + "iterations = 1\n")->Run(&objective, {});
   EXPECT_EQ(summary.termination, Termination::kIterationLimit);
@@ -99,7 +99,7 @@ TEST_P(EveryOptimizer, CallsAStallAStall) {
   ToyTerm term(Truth(3));
   term.wall = 0.6;
   BodySequence x = Start(3);
-  Objective objective(NoPriors(), {}, &term, &x);
+  Objective objective(NoPriors(), {}, &term, &x, ToyBody());
   const OptimizerSummary summary =
       Make(GetParam(), Settings() + "iterations = 300\n")->Run(&objective, {});
   EXPECT_LE(x.translations[0][0], 0.6);
@@ -113,7 +113,7 @@ TEST_P(EveryOptimizer, KeepsThePointBeforeOneWithoutDerivative) {
   ToyTerm term(Truth(3));
   term.cliff = 0.6;
   BodySequence x = Start(3);
-  Objective objective(NoPriors(), {}, &term, &x);
+  Objective objective(NoPriors(), {}, &term, &x, ToyBody());
   const OptimizerSummary summary =
       Make(GetParam(), Settings() + "iterations = 300\n")->Run(&objective, {});
   EXPECT_LE(x.translations[0][0], 0.6);
@@ -129,7 +129,7 @@ TEST_P(EveryOptimizer, FailsIfTheStartCannotBeEvaluated) {
   ToyTerm term(Truth(3));
   term.wall = -1;
   BodySequence x = Start(3);
-  Objective objective(NoPriors(), {}, &term, &x);
+  Objective objective(NoPriors(), {}, &term, &x, ToyBody());
   const OptimizerSummary summary =
       Make(GetParam(), Settings())->Run(&objective, {});
   EXPECT_EQ(summary.termination, Termination::kFailed);
@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(Registered,
 TEST(GradientDescent, FixedStepFollowsTheGradient) {
   ToyTerm term(Truth(1));
   BodySequence x = Start(1);
-  Objective objective(NoPriors(), {}, &term, &x);
+  Objective objective(NoPriors(), {}, &term, &x, ToyBody());
   double cost = 0;
   std::vector<double> gradient;
   objective.Evaluate(&cost, &gradient);

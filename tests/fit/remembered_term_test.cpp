@@ -42,7 +42,7 @@ class RememberedTermTest : public ::testing::Test {
   BodySequence Optimize(ToyTerm* toy, int most) {
     RememberedTerm term(toy, path_);
     BodySequence x = Constant(0);
-    Objective objective({}, {}, &term, &x);
+    Objective objective({}, {}, &term, &x, ToyBody());
     MakeLevenbergMarquardt({})->Run(&objective, [&](const IterationRecord& i) {
       return i.iteration < most;
     });

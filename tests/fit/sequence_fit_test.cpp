@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "invsim/base/error.h"
+#include "invsim/body/mannequin.h"
 #include "invsim/sim/scene.h"
 #include "sim/test_scene.h"
 
@@ -322,6 +323,29 @@ TEST_F(SequenceFitTest, ATimeLimitInTheNextDressingIsReported) {
   EXPECT_EQ(result.kept, 0);
   EXPECT_EQ(result.termination, Termination::kTimeLimit) << result.reason;
   EXPECT_TRUE(result.usable());
+}
+
+// The points alone would keep the left forearm where it was measured, deep in
+// the trunk.
+TEST_F(SequenceFitTest, PartsOfTheBodyAreMovedOutOfEachOther) {
+  body_ = Mannequin();
+  for (PoseVector& pose : start_.poses) {
+    pose[3 * 16 + 2] = -1.2;  // the shoulder
+    pose[3 * 18 + 2] = -1.6;  // the elbow
+  }
+  garment_.placed.row(1).array() += 2;  // over its head
+  clouds_.assign(3, body_.Vertices(start_.Frame(0)));
+  observer_.iteration = [](const FitIteration& i) {
+    return i.record.iteration < 3;
+  };
+  const auto overlap = [&](double weight) {
+    options_.priors.overlap = weight;
+    return Fit(true).optimizer()->iterations.back().terms.overlap / weight;
+  };
+  EXPECT_EQ(Fit(true).optimizer()->iterations.back().terms.overlap, 0);
+  const double light = overlap(1e-3);
+  EXPECT_GT(light, 0);
+  EXPECT_LT(overlap(100), 0.5 * light);
 }
 
 // So far away that no number is left of the cloth.

@@ -3,14 +3,20 @@
 #define INVSIM_TESTS_FIT_TOY_TERM_H_
 
 // A data term that is cheap and whose minimum is known: every unknown is
-// measured, through a mildly non-linear function.
+// measured, through a mildly non-linear function. Its body is any.
 
 #include <cmath>
 #include <limits>
 
 #include "invsim/fit/data_term.h"
+#include "sim/test_scene.h"
 
 namespace invsim {
+
+inline const BodyModel& ToyBody() {
+  static const BodyModel body = BallBody();
+  return body;
+}
 
 class ToyTerm : public DataTerm {
  public:

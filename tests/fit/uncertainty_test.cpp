@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "toy_term.h"
+
 namespace invsim {
 namespace {
 
@@ -45,7 +47,7 @@ TEST(Uncertainty, IsThatOfIndependentMeasurements) {
   DiagonalTerm term(weight);
   PriorOptions priors;
   BodySequence x = TwoFrames();
-  Objective objective(priors, {}, &term, &x);
+  Objective objective(priors, {}, &term, &x, ToyBody());
   const Uncertainty u = FindUncertainty(priors, &objective);
   ASSERT_EQ(u.failure, "");
   // Both frames measure the shape.
@@ -71,7 +73,7 @@ TEST(Uncertainty, NamesWhatTheDataLeaveOpen) {
   DiagonalTerm term(weight);
   PriorOptions priors;
   BodySequence x = TwoFrames();
-  Objective objective(priors, {}, &term, &x);
+  Objective objective(priors, {}, &term, &x, ToyBody());
   const Uncertainty u = FindUncertainty(priors, &objective);
   ASSERT_EQ(u.failure, "");
   EXPECT_EQ(u.undetermined_directions, 1);
@@ -86,7 +88,7 @@ TEST(Uncertainty, SaysSoWhenNothingDeterminesAnUnknown) {
   PriorOptions priors;
   priors.shape = priors.pose = priors.smoothness = 0;
   BodySequence x = TwoFrames();
-  Objective objective(priors, {}, &term, &x);
+  Objective objective(priors, {}, &term, &x, ToyBody());
   EXPECT_NE(FindUncertainty(priors, &objective).failure, "");
 }
 

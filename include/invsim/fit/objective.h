@@ -57,12 +57,12 @@ struct CostTerms {
 class Objective {
  public:
   // `data`, `x` and `body` must outlive the objective; optimisers change `x`
-  // in place. `body` is what may overlap; null: that is not looked at.
+  // in place. `body` is what `x` poses: its parts may overlap.
   Objective(const PriorOptions& priors,
             const FreeParameters& free,
             DataTerm* data,
             BodySequence* x,
-            const BodyModel* body = nullptr);
+            const BodyModel& body);
   ~Objective();
 
   ceres::Problem* problem();

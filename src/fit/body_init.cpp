@@ -151,7 +151,7 @@ Scored Initializer::FitFrame(int t,
   x.shape = start.shape;
   x.Append(start);
   Objective objective(options_.priors, free, &term, &x, body_);
-  CeresOptions ceres;
+  TrustRegionOptions ceres;
   ceres.iterations = iterations;
   ceres.function_tolerance = 1e-3;
   const OptimizerSummary summary =
@@ -255,7 +255,7 @@ BodyInit Initializer::Run() {
   BodyPointsTerm term(body_, covered_, fine, options_.points, seed_);
   Objective objective(
       options_.priors, FreeParameters{}, &term, &sequence_, body_);
-  CeresOptions ceres;
+  TrustRegionOptions ceres;
   ceres.iterations = options_.iterations;
   result.refinement = MakeLevenbergMarquardt(ceres)->Run(
       &objective, [this](const IterationRecord& record) {

@@ -91,26 +91,29 @@ Termination Classify(const ceres::Solver::Summary& summary,
                      const Recorder& recorder) {
   const bool started = !recorder.records.empty();
   if (started && recorder.stopped) return Termination::kInterrupted;
+  // Whatever the last steps were: more iterations would go on.
+  if (summary.termination_type == ceres::NO_CONVERGENCE)
+    return Termination::kIterationLimit;
   // Ceres calls it convergence, or in a line search failure, when no step can
   // be evaluated any more.
   if (started && objective.counts().failed > recorder.failed_at_success())
     return Termination::kStalled;
   if (started && recorder.exhausted) return Termination::kConverged;
   if (!summary.IsSolutionUsable()) return Termination::kFailed;
-  if (summary.termination_type == ceres::CONVERGENCE)
-    return Termination::kConverged;
-  return Termination::kIterationLimit;
+  return Termination::kConverged;
 }
 
 class CeresOptimizer : public Optimizer {
  public:
-  CeresOptimizer(const CeresOptions& options, ceres::Solver::Options solver)
-      : solver_(std::move(solver)), refused_steps_(options.refused_steps) {
+  // `refused_steps`: zero if it may be any number.
+  CeresOptimizer(const CeresOptions& options,
+                 ceres::Solver::Options solver,
+                 int refused_steps)
+      : solver_(std::move(solver)), refused_steps_(refused_steps) {
     solver_.max_num_iterations = options.iterations;
     solver_.function_tolerance = options.function_tolerance;
     solver_.parameter_tolerance = options.parameter_tolerance;
     solver_.gradient_tolerance = options.gradient_tolerance;
-    solver_.initial_trust_region_radius = options.radius;
     solver_.max_solver_time_in_seconds = kNoLimit;
     solver_.logging_type = ceres::SILENT;
     solver_.num_threads = 1;
@@ -151,6 +154,7 @@ class CeresOptimizer : public Optimizer {
     result.initial_cost = summary.initial_cost;
     result.final_cost = summary.final_cost;
     result.seconds = watch.seconds();
+    result.linear_solver_seconds = summary.linear_solver_time_in_seconds;
     result.counts = objective->counts();
     result.iterations = std::move(recorder.records);
     result.details = summary.FullReport();
@@ -178,6 +182,10 @@ void Describe(OptionTable* table, CeresOptions* o) {
       "gradient_tolerance",
       &o->gradient_tolerance,
       {.doc = "done when no gradient component is larger", .at_least = 0});
+}
+
+void Describe(OptionTable* table, TrustRegionOptions* o) {
+  Describe(table, static_cast<CeresOptions*>(o));
   table->Add("refused_steps",
              &o->refused_steps,
              {.doc = "done when so many steps in a row do not lower the cost; "
@@ -187,23 +195,28 @@ void Describe(OptionTable* table, CeresOptions* o) {
       "radius", &o->radius, {.doc = "first trust region radius", .above = 0});
 }
 
-std::unique_ptr<Optimizer> MakeLevenbergMarquardt(const CeresOptions& options) {
+std::unique_ptr<Optimizer> MakeLevenbergMarquardt(
+    const TrustRegionOptions& options) {
   ceres::Solver::Options solver;
-  return std::make_unique<CeresOptimizer>(options, solver);
+  solver.initial_trust_region_radius = options.radius;
+  return std::make_unique<CeresOptimizer>(
+      options, solver, options.refused_steps);
 }
 
-std::unique_ptr<Optimizer> MakeDogleg(const CeresOptions& options) {
+std::unique_ptr<Optimizer> MakeDogleg(const TrustRegionOptions& options) {
   ceres::Solver::Options solver;
+  solver.initial_trust_region_radius = options.radius;
   solver.trust_region_strategy_type = ceres::DOGLEG;
   solver.dogleg_type = ceres::SUBSPACE_DOGLEG;
-  return std::make_unique<CeresOptimizer>(options, solver);
+  return std::make_unique<CeresOptimizer>(
+      options, solver, options.refused_steps);
 }
 
 std::unique_ptr<Optimizer> MakeLbfgs(const CeresOptions& options) {
   ceres::Solver::Options solver;
   solver.minimizer_type = ceres::LINE_SEARCH;
   solver.line_search_direction_type = ceres::LBFGS;
-  return std::make_unique<CeresOptimizer>(options, solver);
+  return std::make_unique<CeresOptimizer>(options, solver, 0);
 }
 
 }  // namespace invsim

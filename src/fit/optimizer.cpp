@@ -26,9 +26,9 @@ const char* Name(Termination termination) {
 const OptimizerRegistry& Optimizers() {
   static const OptimizerRegistry registry = [] {
     OptimizerRegistry r("optimizer");
-    r.Add<CeresOptions>(
+    r.Add<TrustRegionOptions>(
         "lm", "Ceres Levenberg-Marquardt", MakeLevenbergMarquardt);
-    r.Add<CeresOptions>("dogleg", "Ceres subspace dogleg", MakeDogleg);
+    r.Add<TrustRegionOptions>("dogleg", "Ceres subspace dogleg", MakeDogleg);
     r.Add<CeresOptions>("lbfgs", "Ceres L-BFGS, Wolfe line search", MakeLbfgs);
     r.Add<GradientDescentOptions>("gradient_descent",
                                   "the paper's gradient descent",

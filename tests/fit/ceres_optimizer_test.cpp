@@ -114,7 +114,7 @@ class CeresTest : public ::testing::TestWithParam<std::string> {
   CeresTest() { options_.function_tolerance = 1e-14; }
 
   static std::unique_ptr<Optimizer> Make(const std::string& name,
-                                         const CeresOptions& options) {
+                                         const TrustRegionOptions& options) {
     if (name == "lm") return MakeLevenbergMarquardt(options);
     if (name == "dogleg") return MakeDogleg(options);
     return MakeLbfgs(options);
@@ -137,7 +137,7 @@ class CeresTest : public ::testing::TestWithParam<std::string> {
         });
   }
 
-  CeresOptions options_;
+  TrustRegionOptions options_;
   PriorOptions priors_ = WithoutPriors();
   FreeParameters free_;
   BodySequence x_ = CeresSequence(1, 0);
@@ -313,6 +313,27 @@ TEST_P(EveryTrustRegion, FailuresThatWereOvercomeAreNoStall) {
   EXPECT_LT(LargestDifference(x_, CeresSequence(1, 0.3)), 1e-4);
 }
 
+// At the end of the iterations a step that was too long says nothing about
+// those that would have followed.
+TEST_P(EveryTrustRegion, ALastStepThatFailedIsNoStall) {
+  options_.refused_steps = 0;
+  for (const int iterations : {1, 1000}) {
+    x_ = CeresSequence(1, 0);
+    options_.iterations = iterations;
+    OvershootingTerm term(CeresSequence(1, 0.3));
+    term.wall = 0.5;  // of the first step, to 1.2
+    const OptimizerSummary summary = Minimize(GetParam(), &term);
+    EXPECT_GT(summary.counts.failed, 0);
+    EXPECT_EQ(summary.termination,
+              iterations == 1 ? Termination::kIterationLimit
+                              : Termination::kConverged);
+    if (iterations > 1)
+      EXPECT_LT(summary.final_cost, 0.1 * summary.initial_cost);
+    else
+      EXPECT_EQ(summary.final_cost, summary.initial_cost);
+  }
+}
+
 // On a cost that is rough every step is a whole simulation that helps nothing.
 TEST_P(EveryTrustRegion, GivesUpAfterStepsThatDoNotHelp) {
   for (const int most : {1, 4}) {
@@ -405,7 +426,7 @@ TEST_P(EveryCeresOptimizer, ATighterToleranceGoesFurther) {
 }
 
 TEST(CeresOptionsTable, NamesAndBoundsThem) {
-  CeresOptions options;
+  TrustRegionOptions options;
   OptionTable table;
   Describe(&table, &options);
   const auto read = [&](const std::string& text) {
@@ -425,6 +446,16 @@ TEST(CeresOptionsTable, NamesAndBoundsThem) {
                           "refused_steps = -1",
                           "radius = 0.0"})
     EXPECT_THROW(read(bad), UsageError) << bad;
+}
+
+// What L-BFGS would not heed it does not take either.
+TEST(CeresOptionsTable, OfALineSearchHasNothingOfATrustRegion) {
+  OptionTable table;
+  const auto choice = Optimizers().Choose("lbfgs");
+  choice->AddOptions(&table);
+  EXPECT_NO_THROW(table.Read(Config::FromText("iterations = 7\n", "f.toml")));
+  for (const char* text : {"refused_steps = 2\n", "radius = 9.0\n"})
+    EXPECT_THROW(table.Read(Config::FromText(text, "f.toml")), UsageError);
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ struct OptimizerSummary {
   double initial_cost = 0;
   double final_cost = 0;
   double seconds = 0;
+  double linear_solver_seconds = 0;  // of these, for the steps
   ObjectiveCounts counts;
   std::vector<IterationRecord> iterations;
   std::string details;  // the solver's own full report, or empty
@@ -75,17 +76,22 @@ class Optimizer {
   virtual bool first_step_gains_most() const { return false; }
 };
 
+// What all of Ceres's optimisers have; L-BFGS has no more.
 struct CeresOptions {
   int iterations = 30;
   double function_tolerance = 1e-4;   // |change of cost| / cost
   double parameter_tolerance = 1e-8;  // |step| / |x|
   double gradient_tolerance = 1e-10;  // largest component
-  // Trust region only: nearest points and contacts make the cost rough on a
-  // small scale, on which no step helps and each costs a whole simulation.
+};
+void Describe(OptionTable* table, CeresOptions* options);
+
+struct TrustRegionOptions : CeresOptions {
+  // Nearest points and contacts make the cost rough on a small scale, on which
+  // no step helps and each costs a whole simulation.
   int refused_steps = 5;
   double radius = 1e4;  // first trust region
 };
-void Describe(OptionTable* table, CeresOptions* options);
+void Describe(OptionTable* table, TrustRegionOptions* options);
 
 struct GradientDescentOptions {
   int iterations = 300;
@@ -97,8 +103,9 @@ struct GradientDescentOptions {
 };
 void Describe(OptionTable* table, GradientDescentOptions* options);
 
-std::unique_ptr<Optimizer> MakeLevenbergMarquardt(const CeresOptions& options);
-std::unique_ptr<Optimizer> MakeDogleg(const CeresOptions& options);
+std::unique_ptr<Optimizer> MakeLevenbergMarquardt(
+    const TrustRegionOptions& options);
+std::unique_ptr<Optimizer> MakeDogleg(const TrustRegionOptions& options);
 std::unique_ptr<Optimizer> MakeLbfgs(const CeresOptions& options);
 std::unique_ptr<Optimizer> MakeGradientDescent(
     const GradientDescentOptions& options);

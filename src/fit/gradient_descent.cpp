@@ -101,8 +101,28 @@ class GradientDescent : public Optimizer {
   GradientDescentOptions options_;
 };
 
+enum class Trial { kGood, kTooMuch, kImpossible };
+
+// The cost at x alone, and whether it is at most `limit`.
+Trial TryCost(Objective* objective, double limit, double* cost) {
+  const int abandoned = objective->counts().abandoned;
+  objective->SetCostLimit(limit);
+  const bool evaluated = objective->Evaluate(cost, nullptr);
+  objective->SetCostLimit(kNoLimit);
+  if (evaluated) return *cost <= limit ? Trial::kGood : Trial::kTooMuch;
+  return objective->counts().abandoned > abandoned ? Trial::kTooMuch
+                                                   : Trial::kImpossible;
+}
+
+// The gradient at x, where the cost was evaluated last.
+bool Linearize(Objective* objective, std::vector<double>* gradient) {
+  double same = 0;
+  return objective->Evaluate(&same, gradient);
+}
+
 // One step. Fixed: taken whatever it brings, as long as it can be evaluated.
-// False if there is none to take.
+// False if there is none to take. The derivative is found of a point that is
+// kept, not of trials.
 bool GradientDescent::Step(Objective* objective,
                            Point* point,
                            DescentState* s) const {
@@ -111,14 +131,16 @@ bool GradientDescent::Step(Objective* objective,
   s->blocked_now = false;
   for (int halvings = 0; halvings <= kMaxHalvings; ++halvings) {
     point->Move(s->gradient, s->step);
+    const double limit = options_.backtracking
+                             ? s->cost - kSufficient * s->step * slope
+                             : kNoLimit;
     double cost = 0;
     std::vector<double> gradient;
-    const bool evaluated = objective->Evaluate(&cost, &gradient);
-    if (!evaluated) s->blocked = s->blocked_now = true;
-    const bool enough =
-        evaluated && (!options_.backtracking ||
-                      cost <= s->cost - kSufficient * s->step * slope);
-    if (enough) {
+    Trial trial = TryCost(objective, limit, &cost);
+    if (trial == Trial::kGood && !Linearize(objective, &gradient))
+      trial = Trial::kImpossible;
+    if (trial == Trial::kImpossible) s->blocked = s->blocked_now = true;
+    if (trial == Trial::kGood) {
       s->moved = s->step * std::sqrt(slope);
       s->cost = cost;
       s->gradient = std::move(gradient);
@@ -139,7 +161,8 @@ OptimizerSummary GradientDescent::Run(Objective* objective,
   OptimizerSummary summary;
   DescentState s;
   s.step = options_.step;
-  if (!objective->Evaluate(&s.cost, &s.gradient)) {
+  if (TryCost(objective, kNoLimit, &s.cost) != Trial::kGood ||
+      !Linearize(objective, &s.gradient)) {
     summary.reason = "The start cannot be evaluated.";
     summary.counts = objective->counts();
     return summary;

@@ -154,6 +154,19 @@ TEST_F(GradientDescentTest, StepsDoubleWhileTheyAreTakenAtOnce) {
   });
 }
 
+// Trials that are refused cost as little as can be.
+TEST_F(GradientDescentTest, OnlyPointsThatAreKeptAreLinearised) {
+  options_.step = 10;
+  options_.iterations = 8;
+  const OptimizerSummary summary = Descend(&term_);
+  const int kept = static_cast<int>(summary.iterations.size());
+  EXPECT_EQ(kept, 9);
+  EXPECT_EQ(summary.counts.linearizations, kept);
+  EXPECT_GT(summary.counts.abandoned, 5);  // of the first step alone
+  EXPECT_EQ(summary.counts.evaluations, kept + summary.counts.abandoned);
+  EXPECT_EQ(summary.counts.failed, 0);
+}
+
 // Its gradient leads uphill, as that of a rough cost may.
 class WrongWayTerm : public ToyTerm {
  public:

@@ -39,6 +39,18 @@ struct SparseCholesky::Impl {
     std::copy(from, from + b.nzmax, data);
   }
 
+  // Of A + shift I.
+  bool Factor(double shift) {
+    cholmod_common* common = analysis.common();
+    double beta[2] = {shift, 0};
+    cholmod_factorize_p(
+        analysis.lower(), beta, nullptr, 0, analysis.factor(), common);
+    const bool ok = common->status == CHOLMOD_OK &&
+                    analysis.factor()->minor == analysis.factor()->n;
+    common->status = CHOLMOD_OK;
+    return ok;
+  }
+
   CholmodAnalysis analysis;
   cholmod_dense* x = nullptr;  // workspaces kept between solves
   cholmod_dense* y = nullptr;
@@ -52,13 +64,14 @@ SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 bool SparseCholesky::Factor(const BlockMatrix& a) {
-  CholmodAnalysis& s = impl_->analysis;
-  if (!s.Load(a)) return false;
-  cholmod_factorize(s.lower(), s.factor(), s.common());
-  const bool ok =
-      s.common()->status == CHOLMOD_OK && s.factor()->minor == s.factor()->n;
-  s.common()->status = CHOLMOD_OK;
-  return ok;
+  if (!impl_->analysis.Load(a)) return false;
+  if (impl_->Factor(0)) return true;
+  double largest = 0;
+  for (int i = 0; i < a.size(); ++i)
+    largest = std::max(largest, a.diagonal(i).diagonal().maxCoeff());
+  for (const double rounding : {1e-14, 1e-13, 1e-12})
+    if (impl_->Factor(rounding * largest)) return true;
+  return false;
 }
 
 void SparseCholesky::Solve(VectorXd* x) const { impl_->Solve(x->data(), 1); }

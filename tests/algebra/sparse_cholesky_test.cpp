@@ -38,5 +38,24 @@ TEST(SparseCholesky, RefusesIndefiniteAndNotFinite) {
   EXPECT_TRUE(cholesky.Factor(RandomMatrix(4, 0, 1)));
 }
 
+// A stiff triangle's matrix is singular along what does not stretch it, and
+// rounding alone may make that negative. What is indefinite by more than
+// rounding is refused.
+TEST(SparseCholesky, WhatRoundingMadeIndefiniteIsShifted) {
+  BlockMatrix a(GridPattern(2));
+  for (int i = 0; i < 4; ++i) a.diagonal(i) = Matrix3d::Identity();
+  SparseCholesky cholesky(a.shared_pattern());
+  a.diagonal(2) = 1e8 * Matrix3d::Identity();
+  a.diagonal(0)(0, 0) = -1e-7;
+  ASSERT_TRUE(cholesky.Factor(a));
+  VectorXd x = VectorXd::Ones(12);
+  cholesky.Solve(&x);
+  EXPECT_TRUE(x.allFinite());
+  EXPECT_NEAR(x[1], 1, 1e-4);
+  EXPECT_NEAR(x[6], 1e-8, 1e-18);
+  a.diagonal(0)(0, 0) = -1e-3;
+  EXPECT_FALSE(cholesky.Factor(a));
+}
+
 }  // namespace
 }  // namespace invsim

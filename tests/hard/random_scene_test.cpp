@@ -30,12 +30,14 @@ TEST_P(RandomSceneTest, Hold) {
                     << "\n  scene: " << failure.words
                     << "\n  again: invsim soak --seed " << failure.seed
                     << " --scenes 1";
-  // Few steps are above the contact tolerance, or scenes beyond a border.
+  // Few steps are above the contact tolerance, or scenes beyond a border: twice
+  // as many as in the worst of the shards. In most there is contact at all.
   EXPECT_EQ(result.scenes, kScenesPerShard);
-  EXPECT_LT(result.scenes_missed, kScenesPerShard / 4);
+  EXPECT_LE(result.scenes_missed, 32);
   size_t beyond = 0;
   for (const auto& [border, seeds] : result.borders) beyond += seeds.size();
-  EXPECT_LT(beyond, kScenesPerShard / 4u);
+  EXPECT_LE(beyond, 16u);
+  EXPECT_GE(result.scenes_touching, kScenesPerShard / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSceneTest, testing::Range(0, kShards));

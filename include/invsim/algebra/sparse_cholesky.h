@@ -20,8 +20,11 @@ class SparseCholesky {
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  // Only the lower triangle of `a` is read. False if `a` is not positive
-  // definite (or not finite); then Solve may not be called.
+  // Only the lower triangle of `a` is read. What rounding alone has made
+  // indefinite (slivers: entries ten orders apart) is factorised with as much
+  // more on its diagonal as it takes, at most 1e-12 of the largest entry.
+  // False if that does not help (or `a` is not finite); then Solve may not be
+  // called.
   bool Factor(const BlockMatrix& a);
 
   // x <- A^{-1} x, one or many columns.

@@ -97,17 +97,22 @@ std::vector<int> FixedAngles(const FreeParameters& free) {
 
 struct Objective::Impl : public ceres::EvaluationCallback {
   Impl(const PriorOptions& prior_options,
+       const FreeParameters& free_parameters,
        DataTerm* data_term,
        BodySequence* at,
        const BodyModel& model)
-      : priors(prior_options), term(data_term), x(at), body(model) {
+      : priors(prior_options),
+        free(free_parameters),
+        term(data_term),
+        x(at),
+        body(model) {
     if (priors.overlap > 0) overlap = std::make_unique<BodyOverlap>(body);
     ceres::Problem::Options options;
     options.evaluation_callback = this;
     problem = std::make_unique<ceres::Problem>(options);
   }
 
-  void AddParameters(const FreeParameters& free);
+  void AddParameters();
   void AddData();
   void AddPriors();
   void AddOverlap();
@@ -115,7 +120,8 @@ struct Objective::Impl : public ceres::EvaluationCallback {
   void EvaluateTerm();
 
   PriorOptions priors;
-  DataTerm* term;
+  FreeParameters free;
+  DataTerm* term;  // null: priors alone
   BodySequence* x;
   const BodyModel& body;
   std::unique_ptr<BodyOverlap> overlap;  // null: not looked at
@@ -128,7 +134,7 @@ struct Objective::Impl : public ceres::EvaluationCallback {
   std::vector<double*> blocks;
 };
 
-void Objective::Impl::AddParameters(const FreeParameters& free) {
+void Objective::Impl::AddParameters() {
   const auto add = [this](double* block, int size, bool moves) {
     problem->AddParameterBlock(block, size);
     if (moves)
@@ -148,6 +154,7 @@ void Objective::Impl::AddParameters(const FreeParameters& free) {
 }
 
 void Objective::Impl::AddData() {
+  if (!term) return;
   data.costs.resize(x->num_frames());
   data.blocks.resize(x->num_frames());
   for (int t = 0; t < x->num_frames(); ++t)
@@ -192,6 +199,7 @@ void Objective::Impl::AddOverlap() {
 }
 
 void Objective::Impl::EvaluateTerm() {
+  if (!term) return;
   // Covariances and gradients are asked for where the optimiser just was.
   if (data.usable && SamePoint(*x, evaluated)) return;
   evaluated = *x;
@@ -220,14 +228,19 @@ Objective::Objective(const PriorOptions& priors,
                      DataTerm* data,
                      BodySequence* x,
                      const BodyModel& body)
-    : impl_(std::make_unique<Impl>(priors, data, x, body)) {
-  impl_->AddParameters(free);
+    : impl_(std::make_unique<Impl>(priors, free, data, x, body)) {
+  impl_->AddParameters();
   impl_->AddData();
   impl_->AddPriors();
   impl_->AddOverlap();
 }
 
 Objective::~Objective() = default;
+
+std::unique_ptr<Objective> Objective::WithoutData() const {
+  return std::make_unique<Objective>(
+      impl_->priors, impl_->free, nullptr, impl_->x, impl_->body);
+}
 
 ceres::Problem* Objective::problem() { return impl_->problem.get(); }
 const std::vector<double*>& Objective::blocks() const { return impl_->blocks; }

@@ -304,7 +304,6 @@ bool Fitter::WantsAnotherRound() const {
 
 // Of stage 4.
 void Fitter::FindUncertain() {
-  const Stopwatch watch;
   const std::unique_ptr<RememberedTerm> remembered =
       Remembered(result_.kept + 1);
   Objective objective(
@@ -313,8 +312,8 @@ void Fitter::FindUncertain() {
       remembered ? static_cast<DataTerm*>(remembered.get()) : term_.get(),
       &result_.body,
       scene_.body);
-  result_.uncertainty = FindUncertainty(options_.priors, &objective);
-  result_.seconds.uncertainty = watch.seconds();
+  result_.uncertainty = FindUncertainty(&objective);
+  result_.seconds.uncertainty = result_.uncertainty->seconds;
 }
 
 // Stage 4.
@@ -414,6 +413,13 @@ ObjectiveCounts FitResult::counts() const {
   ObjectiveCounts all;
   for (const FitRound& round : rounds)
     if (round.optimizer) all.Add(round.optimizer->counts);
+  return all;
+}
+
+double FitResult::linear_solver_seconds() const {
+  double all = 0;
+  for (const FitRound& round : rounds)
+    if (round.optimizer) all += round.optimizer->linear_solver_seconds;
   return all;
 }
 

@@ -11,7 +11,7 @@
 namespace invsim {
 namespace {
 
-// A joint counts as undetermined if so much of it (frames, angles) is.
+// A joint is named if in so many of the frames it is undetermined.
 constexpr double kMostly = 0.5;
 
 const char* Usable(const FitReport& report) {
@@ -46,11 +46,11 @@ FrameStats Simulated(const FitReport& report) {
   return total;
 }
 
-std::vector<std::string> UndeterminedJointNames(const Uncertainty& u) {
-  std::vector<std::string> names;
+std::vector<int> UndeterminedJoints(const Uncertainty& u) {
+  std::vector<int> joints;
   for (int j = 1; j < kNumJoints; ++j)
-    if (u.undetermined_joints[j] > kMostly) names.push_back(kJointNames[j]);
-  return names;
+    if (u.undetermined_joints[j] > kMostly) joints.push_back(j);
+  return joints;
 }
 
 std::string Verdict(const FitReport& report) {
@@ -115,11 +115,11 @@ std::vector<std::pair<std::string, double>> TimeByPart(
       {"sensitivity and blocks", r.stats.sensitivity_seconds},
       {"nearest neighbours", r.stats.neighbour_seconds},
       {"cost", r.stats.block_seconds},
+      {"linear solver", r.linear_solver_seconds()},
       {"uncertainty", r.seconds.uncertainty}};
   double known = 0;
   for (const auto& part : parts) known += part.second;
-  parts.push_back(
-      {"linear solver and the rest", std::max(0.0, report.seconds - known)});
+  parts.push_back({"other", std::max(0.0, report.seconds - known)});
   std::stable_sort(
       parts.begin(), parts.end(), [](const auto& a, const auto& b) {
         return a.second > b.second;

@@ -140,7 +140,14 @@ Json UncertaintyJson(const Uncertainty& u) {
     direction["deviation"] = u.direction_deviation[k];
     json["shape_undetermined_directions"].push_back(std::move(direction));
   }
-  json["joints_undetermined"] = UndeterminedJointNames(u);
+  json["joints_undetermined"] = Json::array();
+  json["joints_undetermined_axis"] = Json::object();
+  for (const int j : UndeterminedJoints(u)) {
+    json["joints_undetermined"].push_back(kJointNames[j]);
+    if (!u.undetermined_axes[j].isZero())
+      json["joints_undetermined_axis"][kJointNames[j]] =
+          List(u.undetermined_axes[j]);
+  }
   json["frames"] = Json::array();
   for (size_t t = 0; t < u.pose_deviation.size(); ++t) {
     Json frame;

@@ -14,8 +14,8 @@ namespace invsim {
 // All frames of the final simulation together.
 FrameStats Simulated(const FitReport& report);
 
-// Joints of which most (frames, angles) is undetermined.
-std::vector<std::string> UndeterminedJointNames(const Uncertainty& u);
+// Joints that are undetermined in most frames.
+std::vector<int> UndeterminedJoints(const Uncertainty& u);
 
 }  // namespace invsim
 

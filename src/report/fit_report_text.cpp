@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -171,6 +172,23 @@ void SimulationText(const FitReport& report, std::ostream* out) {
            " mm");
 }
 
+std::string Numbers(const VectorXd& values) {
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : " ") + ShortNumber(value);
+  return text;
+}
+
+// The axis of its parent that a joint turns about: a letter if it is nearly
+// one of the three, nothing if it is none.
+std::string AxisText(const Vector3d& axis) {
+  constexpr double kNearly = 0.95;
+  if (axis.isZero()) return "";
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(axis[c]) > kNearly) return std::string(" about ") + "xyz"[c];
+  return " about (" + Numbers(axis) + ")";
+}
+
 void UncertaintyText(const Uncertainty& u, std::ostream* out) {
   *out << "\nUncertainty (one standard deviation, if the noise is as assumed "
           "and the model true)\n";
@@ -179,25 +197,20 @@ void UncertaintyText(const Uncertainty& u, std::ostream* out) {
     return;
   }
   Lines lines(out);
-  std::string shape;
-  for (const double d : u.shape_deviation)
-    shape += (shape.empty() ? "" : " ") + ShortNumber(d);
-  lines.Add("shape", shape);
+  lines.Add("shape", Numbers(u.shape_deviation));
   double pose = 0, translation = 0;
   for (const PoseVector& d : u.pose_deviation) pose += d.mean();
   for (const Vector3d& d : u.translation_deviation) translation += d.mean();
   const double n = static_cast<double>(u.pose_deviation.size());
   lines.Add("pose, mean", kDegreesPerRadian * pose / n, " degrees")
       .Add("translation, mean", 1000 * translation / n, " mm");
-  for (int k = 0; k < u.undetermined_directions; ++k) {
-    std::string direction;
-    for (const double c : u.shape_directions.col(k))
-      direction += (direction.empty() ? "" : " ") + ShortNumber(c);
+  for (int k = 0; k < u.undetermined_directions; ++k)
     lines.Add("not determined",
-              "shape along (" + direction + "): deviation " +
-                  ShortNumber(u.direction_deviation[k]));
-  }
-  const std::vector<std::string> joints = UndeterminedJointNames(u);
+              "shape along (" + Numbers(u.shape_directions.col(k)) +
+                  "): deviation " + ShortNumber(u.direction_deviation[k]));
+  std::vector<std::string> joints;
+  for (const int j : UndeterminedJoints(u))
+    joints.push_back(kJointNames[j] + AxisText(u.undetermined_axes[j]));
   if (!joints.empty())
     lines.Add("not determined", "rotation of " + Join(joints));
 }

@@ -264,6 +264,7 @@ Uncertainty UncertaintyWithFigures() {
   u.pose_deviation = {PoseVector::Constant(std::numbers::pi / 60)};
   u.translation_deviation = {Vector3d(0.001, 0.002, 0.004)};
   u.undetermined_joints.assign(kNumJoints, 0.5);
+  u.undetermined_axes.assign(kNumJoints, Vector3d::Zero());
   return u;
 }
 
@@ -285,9 +286,9 @@ TEST(FitReportJson, HasTheUncertaintyInDegreesAndMillimetres) {
   EXPECT_DOUBLE_EQ(frame["translation_deviation_mm"][2], 4);
 }
 
-// Just half of a joint is not most of it; and the root is no joint that the
-// body bends.
-TEST(FitReportJson, NamesJointsOfWhichMostIsOpen) {
+// Just half of the frames is not most of them; and the root is no joint that
+// the body bends.
+TEST(FitReportJson, NamesJointsThatAreOpenInMostFrames) {
   FitReport report = FitWithFigures();
   report.result.uncertainty = UncertaintyWithFigures();
   std::vector<double>& open = report.result.uncertainty->undetermined_joints;
@@ -297,6 +298,10 @@ TEST(FitReportJson, NamesJointsOfWhichMostIsOpen) {
   EXPECT_TRUE(names().empty());
   open[0] = open[4] = open[23] = 0.75;
   EXPECT_THAT(names(), ElementsAre(kJointNames[4], kJointNames[23]));
+  report.result.uncertainty->undetermined_axes[23] = Vector3d(0, 0.6, 0.8);
+  report.result.uncertainty->undetermined_axes[5] = Vector3d(1, 0, 0);
+  EXPECT_EQ(ParsedFit(report)["uncertainty"]["joints_undetermined_axis"],
+            nlohmann::json({{kJointNames[23], {0, 0.6, 0.8}}}));
 }
 
 TEST(FitReportJson, SaysWhyThereIsNoUncertainty) {
@@ -317,10 +322,15 @@ TEST(FitReportJson, TheTimesByPartAddUpToTheWhole) {
   report.result.stats.sensitivity_seconds = 12;
   report.result.stats.neighbour_seconds = 8;
   report.result.stats.block_seconds = 2;
+  OptimizerSummary summary;
+  summary.linear_solver_seconds = 6;
+  report.result.rounds.resize(2);
+  for (FitRound& round : report.result.rounds) round.optimizer = summary;
   const nlohmann::json json = ParsedFit(report);
   EXPECT_EQ(json["wall_seconds"], 100);
+  EXPECT_EQ(json["seconds_by_part"]["linear solver"], 12);
   EXPECT_EQ(json["seconds_by_part"]["simulation"], 40);
-  EXPECT_EQ(json["seconds_by_part"]["linear solver and the rest"], 20);
+  EXPECT_EQ(json["seconds_by_part"]["other"], 8);
   double sum = 0;
   for (const auto& part : json["seconds_by_part"]) sum += part.get<double>();
   EXPECT_DOUBLE_EQ(sum, 100);

@@ -56,7 +56,8 @@ struct CostTerms {
 
 class Objective {
  public:
-  // `data`, `x` and `body` must outlive the objective; optimisers change `x`
+  // `data` (null: priors alone), `x` and `body` must outlive the objective;
+  // optimisers change `x`
   // in place. `body` is what `x` poses: its parts may overlap.
   Objective(const PriorOptions& priors,
             const FreeParameters& free,
@@ -64,6 +65,9 @@ class Objective {
             BodySequence* x,
             const BodyModel& body);
   ~Objective();
+
+  // What is known before any point is measured, at the same x.
+  std::unique_ptr<Objective> WithoutData() const;
 
   ceres::Problem* problem();
   BodySequence* x();

@@ -95,11 +95,8 @@ struct FitObserver {
 };
 
 struct FitSeconds {
-  double init = 0, dressing = 0, optimization = 0, final_simulation = 0,
-         uncertainty = 0;
-  double total() const {
-    return init + dressing + optimization + final_simulation + uncertainty;
-  }
+  double init = 0, dressing = 0, optimization = 0, final_simulation = 0;
+  double uncertainty = 0;  // without the simulation at the solution
 };
 
 // Stages 2 and 3, gone through once.
@@ -136,6 +133,7 @@ struct FitResult {
   // Of all rounds; the cost is that of the first start, 0 if there was none.
   double initial_cost() const;
   ObjectiveCounts counts() const;
+  double linear_solver_seconds() const;
   int iterations() const;
 };
 

@@ -11,6 +11,7 @@
 #include "fit_inputs.h"
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
+#include "invsim/base/names.h"
 #include "invsim/io/earlier_results.h"
 #include "invsim/report/chart.h"
 #include "invsim/report/comparison_report.h"
@@ -58,9 +59,11 @@ class CompareCommand : public Command {
 
 void CompareCommand::AddArguments(CLI::App* app, KeyFlags* flags) {
   AddFitInputFlags(flags);
-  flags->Add("--optimizers", "compare.optimizers", "[\"lm\", ...]");
+  flags->Add("--optimizers", "compare.optimizers", "lm,dogleg,...");
   flags->Add("--truth", "compare.truth", "AMASS npz of the true body");
-  flags->Add("--time-limit", "fit.time_limit", "seconds of each; 0: none");
+  flags->Add("--time-limit",
+             "fit.time_limit",
+             "seconds of each, without the start that they share; 0: none");
   app->add_flag("--force", force_, "replace an earlier comparison in DIR");
 }
 
@@ -82,6 +85,9 @@ std::optional<BodySequence> CompareCommand::LoadTruth(int frames) const {
 }
 
 ExitCode CompareCommand::Run(const CommandContext& context) {
+  if (compare_.optimizers.empty())
+    throw UsageError("compare.optimizers is empty; expected some of " +
+                     Join(Optimizers().names()));
   const InterruptGuard interrupt;
   const FitData data = LoadFitData(input_, scene_.material, context);
   UseMaterialFriction(*context.options, data.material, &scene_);
@@ -130,9 +136,10 @@ ExitCode CompareCommand::Run(const CommandContext& context) {
   std::cout << (context.json ? ComparisonJson(runs) : ComparisonText(runs));
   if (!context.json) std::cout << folder.path() << "\n";
   if (InterruptRequested()) return ExitCode::kInterrupted;
+  ExitCode worst = ExitCode::kOk;
   for (const ComparisonRun& run : runs)
-    if (!run.summary.usable()) return ExitCode::kFailed;
-  return ExitCode::kOk;
+    worst = Worse(worst, CodeOf(run.summary.termination));
+  return worst;
 }
 
 }  // namespace

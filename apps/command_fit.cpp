@@ -42,24 +42,6 @@ bool MayChange(const std::string& key) {
          key.ends_with(".iterations");
 }
 
-ExitCode CodeOf(Termination termination) {
-  switch (termination) {
-    case Termination::kConverged:
-      return ExitCode::kOk;
-    case Termination::kIterationLimit:
-    case Termination::kTimeLimit:
-    case Termination::kGivenUp:
-      return ExitCode::kStoppedEarly;
-    case Termination::kInterrupted:
-      return ExitCode::kInterrupted;
-    case Termination::kStalled:
-      return ExitCode::kStalled;
-    case Termination::kFailed:
-      break;
-  }
-  return ExitCode::kFailed;
-}
-
 // One line of progress per stage.
 class FitProgress {
  public:

@@ -4,6 +4,8 @@
 
 namespace invsim {
 
+enum class Termination;
+
 // What the process tells the one that started it.
 enum class ExitCode {
   kOk = 0,             // converged, or done, and usable
@@ -15,6 +17,12 @@ enum class ExitCode {
   kStalled = 6,        // stalled where the simulation fails
   kInterrupted = 130,  // stopped by a signal, checkpoint written
 };
+
+// Of a fit that ended so.
+ExitCode CodeOf(Termination termination);
+
+// Of two fits the code that says less good.
+ExitCode Worse(ExitCode a, ExitCode b);
 
 }  // namespace invsim
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "invsim/base/error.h"
@@ -195,7 +196,8 @@ std::string ExpectedText(const std::string& noun, const OptionInfo& info) {
                                 const ConfigEntry& entry) {
   std::string text = entry.origin + ": " + option.key + " = " +
                      TomlText(entry.value) + ": expected " + option.expected;
-  if (const auto* name = std::get_if<std::string>(&entry.value)) {
+  const auto* name = std::get_if<std::string>(&entry.value);
+  if (name && name->find(',') == std::string::npos) {
     const std::string nearest = NearestName(*name, option.info.choices);
     if (!nearest.empty()) text += "; did you mean '" + nearest + "'?";
   }
@@ -239,6 +241,21 @@ std::vector<std::string> SectionNames(const std::vector<std::string>& keys) {
 
 }  // namespace
 
+// On the command line a list of names may be written a,b,c.
+template <typename T>
+ConfigValue Unfolded(const OptionInfo& info, const ConfigValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    if (text && !text->empty() && !info.choices.empty()) {
+      std::vector<std::string> names;
+      std::istringstream parts(*text);
+      for (std::string name; std::getline(parts >> std::ws, name, ',');)
+        names.push_back(name);
+      return names;
+    }
+  return value;
+}
+
 template <typename T>
 requires(!std::is_enum_v<T>) void OptionTable::Add(const std::string& key,
                                                    T* member,
@@ -248,7 +265,8 @@ requires(!std::is_enum_v<T>) void OptionTable::Add(const std::string& key,
   option.expected = ExpectedText(Convert<T>::kNoun, info);
   option.info = info;
   option.get = [member] { return Convert<T>::ToValue(*member); };
-  option.set = [member, info](const ConfigValue& value) {
+  option.set = [member, info](const ConfigValue& given) {
+    const ConfigValue value = Unfolded<T>(info, given);
     const std::optional<T> x = Convert<T>::FromValue(value);
     if (!x || !AllowedValue(info, value)) return false;
     *member = *x;

@@ -160,17 +160,19 @@ class Plot {
 
 std::string FormatSvg(const Chart& chart) { return Plot(chart).Draw(); }
 
-std::string StandaloneSvg(const Chart& chart) {
-  std::string svg = FormatSvg(chart);
+std::string StandaloneSvg(const std::vector<Chart>& charts) {
+  std::ostringstream out;
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" "
+      << "viewBox=\"0 0 " << kWidth << " " << kHeight * charts.size() << "\">"
+      << "<style>text{font:11px sans-serif}.grid{stroke:#ddd}</style>"
+      << "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>";
   const std::string open = "<svg ";
-  svg.replace(0,
-              open.size(),
-              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" ");
-  const size_t inside = svg.find('>') + 1;
-  svg.insert(inside,
-             "<style>text{font:11px sans-serif}.grid{stroke:#ddd}</style>"
-             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>");
-  return svg + "\n";
+  for (size_t k = 0; k < charts.size(); ++k)
+    out << open << "y=\"" << kHeight * k << "\" width=\"" << kWidth
+        << "\" height=\"" << kHeight << "\" "
+        << FormatSvg(charts[k]).substr(open.size());
+  out << "</svg>\n";
+  return out.str();
 }
 
 std::string EscapeHtml(const std::string& text) {

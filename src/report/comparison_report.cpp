@@ -185,7 +185,7 @@ void WriteComparison(const RunFolder& folder,
   page.lead = "The same problem from the same start.";
   page.charts = ComparisonCharts(runs);
   page.details = ComparisonText(runs);
-  folder.Write("comparison.svg", StandaloneSvg(page.charts[0]));
+  folder.Write("comparison.svg", StandaloneSvg(page.charts));
   folder.Write("report.html", FormatWebPage(page));
   std::string details = ComparisonText(runs);
   for (const ComparisonRun& run : runs)

@@ -13,6 +13,35 @@ double Measure(const ComparisonPoint& point) {
   return std::isnan(point.body_error) ? point.cost : point.body_error;
 }
 
+// Finds what all runs begin with, however long that takes.
+FitResult FindCommonStart(FitScene* scene,
+                          FitOptions* options,
+                          const FitObserver& observer) {
+  const double limit = options->time_limit;
+  options->time_limit = 0;
+  scene->optimize = false;
+  FitObserver watching;
+  watching.init = observer.init;
+  watching.relaxation = observer.relaxation;
+  FitResult found = FitSequence(*scene, *options, watching);
+  options->time_limit = limit;
+  scene->optimize = true;
+  scene->start = found.start;
+  if (found.reference()) scene->reference = *found.reference();
+  return found;
+}
+
+// The runs that there would have been.
+std::vector<ComparisonRun> NoneStarted(const std::vector<std::string>& names,
+                                       const std::string& reason) {
+  std::vector<ComparisonRun> runs;
+  for (const std::string& name : names) {
+    runs.emplace_back().optimizer = name;
+    runs.back().summary.reason = reason;
+  }
+  return runs;
+}
+
 }  // namespace
 
 double BodyError(const BodyModel& model,
@@ -38,6 +67,9 @@ std::vector<ComparisonRun> CompareOptimizers(
   std::vector<ComparisonRun> runs;
   for (const std::string& name : names)
     if (options->optimizers.count(name) == 0) Optimizers().Choose(name);
+  const FitResult common = FindCommonStart(&scene, options, observer);
+  if (InterruptRequested()) return runs;
+  if (!common.reference()) return NoneStarted(names, common.reason);
   for (const std::string& name : names) {
     if (begin) begin(name);
     ComparisonRun run;
@@ -50,9 +82,7 @@ std::vector<ComparisonRun> CompareOptimizers(
       run.points.push_back(point);
       return !observer.iteration || observer.iteration(i);
     };
-    FitResult result = FitSequence(scene, *options, watching);
-    scene.start = result.start;
-    if (result.reference()) scene.reference = *result.reference();
+    const FitResult result = FitSequence(scene, *options, watching);
     if (result.optimizer()) run.summary = *result.optimizer();
     if (result.termination == Termination::kTimeLimit) {
       run.summary.termination = result.termination;

@@ -175,6 +175,18 @@ TEST_F(OptionsTest, AListOfTextsMayBeGivenAsOne) {
   EXPECT_EQ(options_.effects, std::vector<std::string>{"membrane"});
 }
 
+// If it is one of names, which have no commas.
+TEST_F(OptionsTest, AListOfNamesMayBeGivenWithCommas) {
+  Config config;
+  config.Set("scene.effects", "bending, membrane", "--set");
+  table_.Read(config);
+  EXPECT_EQ(options_.effects,
+            (std::vector<std::string>{"bending", "membrane"}));
+  EXPECT_THAT(ErrorOf("scene.effects = 'membrane,bendin'"),
+              testing::AllOf(HasSubstr("each one of membrane, bending"),
+                             testing::Not(HasSubstr("did you mean"))));
+}
+
 TEST_F(OptionsTest, CommandLineTextNeedsNoQuotes) {
   std::string name = "a";
   OptionTable table;

@@ -9,6 +9,7 @@ namespace invsim {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -37,6 +38,19 @@ TEST(Chart, LeavesOutWhatCannotBeDrawn) {
 TEST(Chart, IsDrawnWithoutValuesOrWithOne) {
   EXPECT_THAT(FormatSvg({}), Not(HasSubstr("nan")));
   EXPECT_THAT(FormatSvg({"t", "x", {3}, {{"y", {0}}}}), Not(HasSubstr("nan")));
+}
+
+TEST(Chart, AFileHasAllOneBelowTheOther) {
+  const Chart one{"first", "x", {0, 1}, {{"y", {1, 2}}}};
+  const Chart two{"second", "x", {0, 1}, {{"y", {2, 1}}}};
+  const std::string svg = StandaloneSvg({one, two});
+  for (const Chart& chart : {one, two})
+    EXPECT_THAT(svg, HasSubstr(FormatSvg(chart).substr(5)));
+  EXPECT_THAT(svg,
+              AllOf(HasSubstr("viewBox=\"0 0 480 340\">"),
+                    HasSubstr("<svg y=\"0\" "),
+                    HasSubstr("<svg y=\"170\" "),
+                    EndsWith("</svg></svg>\n")));
 }
 
 TEST(Chart, EscapesTexts) {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "invsim/sim/scene.h"
 #include "sim/test_scene.h"
@@ -57,42 +59,79 @@ TEST(ComparisonRun, WithoutATruthTheCostIsTheMeasure) {
   EXPECT_TRUE(std::isinf(Best(RunOf({}))));
 }
 
-// All begin where the first did, with the cloth that it wore.
-TEST(CompareOptimizers, StartsAllFromTheSame) {
-  const BodyModel body = BallBody();
-  const Garment garment = SheetAboveBall(4, 0.2);
-  const std::vector<Points> clouds(3, garment.placed);
-  SceneOptions scene_options;
-  scene_options.step.substeps = 1;
-  Simulator simulator(MakeSetup(scene_options, body, garment, PlainCloth()));
-  int dressed = 0;
-  FitObserver observer;
-  observer.relaxation = [&](const RelaxationFrame&) { ++dressed; };
-  FitOptions options;
-  options.dressings = 1;
-  FitScene scene{body,
-                 garment,
-                 [&](const BodySequence&) { return &simulator; },
-                 clouds,
-                 30.0,
-                 Standing(3, {0.02, 0, 0})};
-  int once = 0;
-  const std::vector<ComparisonRun> runs =
-      CompareOptimizers(scene,
-                        &options,
-                        {"lm", "dogleg"},
-                        Standing(3, {0, 0, 0}),
-                        observer,
-                        [&](const std::string& name) {
-                          if (name == "dogleg") once = dressed;
-                        });
+// A ball under a sheet, off to one side.
+class CompareOptimizersTest : public ::testing::Test {
+ protected:
+  CompareOptimizersTest()
+      : body_(BallBody()),
+        garment_(SheetAboveBall(4, 0.2)),
+        clouds_(3, garment_.placed) {
+    options_.dressings = 1;
+    observer_.relaxation = [this](const RelaxationFrame&) { ++dressed_; };
+  }
+
+  std::vector<ComparisonRun> Compare() {
+    SceneOptions scene_options;
+    scene_options.step.substeps = 1;
+    Simulator simulator(
+        MakeSetup(scene_options, body_, garment_, PlainCloth()));
+    const FitScene scene{body_,
+                         garment_,
+                         [&](const BodySequence&) { return &simulator; },
+                         clouds_,
+                         30.0,
+                         Standing(3, at_)};
+    return CompareOptimizers(scene,
+                             &options_,
+                             {"lm", "dogleg"},
+                             Standing(3, {0, 0, 0}),
+                             observer_,
+                             [&](const std::string& name) {
+                               if (name == "lm") once_ = dressed_;
+                             });
+  }
+
+  BodyModel body_;
+  Garment garment_;
+  std::vector<Points> clouds_;
+  Vector3d at_ = {0.02, 0, 0};
+  FitOptions options_;
+  FitObserver observer_;
+  int dressed_ = 0, once_ = 0;  // frames; in all, and before the first run
+};
+
+TEST_F(CompareOptimizersTest, StartsAllFromTheSame) {
+  const std::vector<ComparisonRun> runs = Compare();
   ASSERT_EQ(runs.size(), 2u);
-  EXPECT_GT(once, 0);
-  EXPECT_EQ(dressed, once);
+  EXPECT_GT(once_, 0);
+  EXPECT_EQ(dressed_, once_);
   for (const ComparisonRun& run : runs) {
     EXPECT_NEAR(run.points.front().body_error, 0.02, 1e-12);
     EXPECT_EQ(run.points.front().cost, runs[0].points.front().cost);
     EXPECT_LT(run.summary.final_cost, run.summary.initial_cost);
+  }
+}
+
+// Whatever the way to the start takes.
+TEST_F(CompareOptimizersTest, TheTimeLimitIsOfEachRunFromTheStartOn) {
+  options_.time_limit = 1;
+  observer_.relaxation = [this](const RelaxationFrame&) {
+    if (dressed_++ == 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+  };
+  const std::vector<ComparisonRun> runs = Compare();
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(options_.time_limit, 1);
+  for (const ComparisonRun& run : runs) EXPECT_FALSE(run.points.empty());
+}
+
+TEST_F(CompareOptimizersTest, AllHaveFailedWhereNothingCanBeWorn) {
+  at_.setConstant(1e200);
+  const std::vector<ComparisonRun> runs = Compare();
+  ASSERT_EQ(runs.size(), 2u);
+  for (const ComparisonRun& run : runs) {
+    EXPECT_EQ(run.summary.termination, Termination::kFailed);
+    EXPECT_FALSE(run.summary.reason.empty());
+    EXPECT_TRUE(run.points.empty());
   }
 }
 

@@ -29,8 +29,9 @@ struct Chart {
 // not finite are left out.
 std::string FormatSvg(const Chart& chart);
 
-// The same as a file of its own, readable without a page's styles.
-std::string StandaloneSvg(const Chart& chart);
+// Charts one below the other as a file of their own, readable without a page's
+// styles.
+std::string StandaloneSvg(const std::vector<Chart>& charts);
 
 // Text with & < > " escaped, for HTML and SVG.
 std::string EscapeHtml(const std::string& text);

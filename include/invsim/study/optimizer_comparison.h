@@ -36,10 +36,11 @@ double BodyError(const BodyModel& model,
                  const BodySequence& b);
 
 // Runs the optimisers in the order of `names` (names of Optimizers(); throws
-// UsageError for another). The start is found once, and so is the cloth at
-// rest on it; for all to go the same way options->dressings is 1.
-// `observer.iteration` is told of each, `begin` of each optimiser before it.
-// Ends after the run in which a stop was asked for.
+// UsageError for another). The start is found once before, and so is the cloth
+// at rest on it: options->time_limit is for each run from there on. For all to
+// go the same way options->dressings is 1. `observer.iteration` is told of
+// each, `begin` of each optimiser before it. Where nothing can be worn all have
+// failed. Ends after the run in which a stop was asked for.
 std::vector<ComparisonRun> CompareOptimizers(
     FitScene scene,
     FitOptions* options,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "invsim/base/error.h"
 #include "invsim/body/motion.h"
@@ -10,6 +11,9 @@
 
 namespace invsim {
 namespace {
+
+// Beyond it an angle has no direction left, and a place no millimetres.
+constexpr double kLargest = 1e6;
 
 constexpr int kBodyNumbers = 66;  // 22 joints, all that SMPL-H and SMPL-X share
 
@@ -59,6 +63,24 @@ double ReadFrameRate(const Npz& npz) {
   return *rate;
 }
 
+// Rows of numbers, one per frame, none of which is out of all proportion.
+std::vector<double> FrameDoubles(const Npz& npz,
+                                 const std::string& array,
+                                 const NpyArray::Shape& shape,
+                                 const std::string& unit) {
+  std::vector<double> values = FiniteDoubles(npz, array, shape);
+  const std::size_t width = npz.Array(array).shape()[1];
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (std::abs(values[k]) > kLargest) {
+      std::ostringstream text;
+      text << npz.name() << ": " << array << " of frame " << k / width
+           << " holds " << values[k] << " (value " << k % width
+           << "): expected at most " << kLargest << " " << unit;
+      throw InputError(text.str());
+    }
+  return values;
+}
+
 ShapeVector ReadBetas(const Npz& npz) {
   ShapeVector shape = ShapeVector::Zero();
   if (!npz.Has("betas")) return shape;
@@ -76,7 +98,8 @@ std::string ReadGender(const Npz& npz) {
 }
 
 void ReadPoses(const Npz& npz, Motion* motion) {
-  const std::vector<double> values = FiniteDoubles(npz, "poses", {-1, -1});
+  const std::vector<double> values =
+      FrameDoubles(npz, "poses", {-1, -1}, "rad");
   const NpyArray::Shape shape = npz.Array("poses").shape();
   const std::int64_t numbers = shape[1];
   if (numbers != kNumPose && numbers != 156 && numbers != 165) {
@@ -106,7 +129,7 @@ Motion ParseMotion(std::string bytes, const std::string& path) {
   motion.gender = ReadGender(npz);
   ReadPoses(npz, &motion);
   const std::vector<double> trans =
-      FiniteDoubles(npz, "trans", {motion.num_frames(), 3});
+      FrameDoubles(npz, "trans", {motion.num_frames(), 3}, "m");
   for (int t = 0; t < motion.num_frames(); ++t) {
     motion.translations.emplace_back(&trans[3 * t]);
   }

@@ -2,6 +2,7 @@
 #include "invsim/report/simulation_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -66,6 +67,7 @@ Json StatsJson(const FrameStats& stats) {
   json["steps_missed"] = s.missed;
   json["steps_halved"] = s.halved;
   json["steps_failed"] = s.failed;
+  if (!s.failures.empty()) json["steps_failed_because"] = s.failures;
   json["worst_residual_weights"] = s.worst_residual;
   json["most_contacts"] = s.most_contacts;
   json["newton_iterations"] = s.newton_iterations;
@@ -111,6 +113,7 @@ void PartText(const FrameStats& stats, std::ostream* out) {
   *out << "  steps                 " << s.substeps << "\n"
        << "  missed the tolerance  " << s.missed << "\n"
        << "  halved                " << s.halved << "\n"
+       << "  without a result      " << s.failed << "\n"
        << "  worst residual        " << ShortNumber(s.worst_residual)
        << " of a vertex's weight\n"
        << "  most contacts         " << s.most_contacts << "\n"
@@ -148,6 +151,41 @@ std::string RestText(const RelaxationResult& r) {
          " (mean speed " + ShortNumber(100 * r.rest_speed) + " cm/s)";
 }
 
+std::string WhereItFailed(const SimulationReport& r) {
+  if (r.relaxation.status == RunStatus::kFailed)
+    return std::string("while dressing, in phase '") +
+           PhaseName(r.relaxation.phase) + "'";
+  return "in frame " + std::to_string(r.sequence.frames);
+}
+
+// " (the force of membrane is not finite)", "" if nobody knows.
+std::string WhyItFailed(const StepStats& s) {
+  std::string why;
+  for (const auto& [cause, count] : s.failures)
+    why += (why.empty() ? " (" : ", ") + cause;
+  return why + (why.empty() ? "" : ")");
+}
+
+// Of the steps that have a result how many met the tolerance.
+std::string ToleranceText(const StepStats& s, double tolerance) {
+  std::ostringstream out;
+  if (s.failed > 0)
+    out << s.failed << (s.failed == 1 ? " step" : " steps")
+        << " had no result, ";
+  if (s.missed > 0)
+    out << s.missed << " of " << s.substeps
+        << " steps missed the contact tolerance of " << ShortNumber(tolerance);
+  else if (s.failed > 0)
+    out << "the others met the contact tolerance";
+  else
+    out << "Every one of " << s.substeps << " steps met the contact tolerance";
+  // A step without a result has a residual that is not finite.
+  if (std::isfinite(s.worst_residual))
+    out << " (worst residual " << ShortNumber(s.worst_residual)
+        << " of a vertex's weight)";
+  return out.str();
+}
+
 }  // namespace
 
 RunStatus Status(const SimulationReport& report) {
@@ -168,24 +206,15 @@ std::string Verdict(const SimulationReport& report) {
       out << "Complete: ";
       break;
     case RunStatus::kFailed:
-      out << "Failed (positions became not finite) after ";
+      out << "Failed " << WhereItFailed(report) << WhyItFailed(total.step)
+          << ", after ";
       break;
     case RunStatus::kInterrupted:
       out << "Interrupted after ";
       break;
   }
-  out << report.sequence.frames << " of " << report.frames_wanted
-      << " frames. ";
-  if (total.step.missed == 0) {
-    out << "Every one of " << total.step.substeps
-        << " steps met the contact tolerance";
-  } else {
-    out << total.step.missed << " of " << total.step.substeps
-        << " steps missed the contact tolerance of "
-        << ShortNumber(report.tolerance);
-  }
-  out << " (worst residual " << ShortNumber(total.step.worst_residual)
-      << " of a vertex's weight); deepest penetration "
+  out << report.sequence.frames << " of " << report.frames_wanted << " frames. "
+      << ToleranceText(total.step, report.tolerance) << "; deepest penetration "
       << ShortNumber(1000 * total.penetration.deepest) << " mm.";
   return out.str();
 }

@@ -14,6 +14,8 @@
 namespace invsim {
 namespace {
 
+constexpr char kBodyNotFinite[] = "the body is not finite";
+
 // How often contacts that a solution shows to be missing are added to a
 // sub-step.
 constexpr int kLateRounds = 4;
@@ -252,7 +254,7 @@ ClothState Simulator::Impl::End(const SubstepRecord& sub) const {
 std::string Simulator::Impl::WhyNotFinite(const Points& body1,
                                           const Outcome& outcome,
                                           const SubstepRecord& sub) const {
-  if (!body1.allFinite()) return "the body is not finite";
+  if (!body1.allFinite()) return kBodyNotFinite;
   for (size_t k = 0; k < setup.effects.size(); ++k) {
     Points force = Points::Zero(3, pattern->size);
     setup.effects[k]->AddForce(sub.start, &force);
@@ -382,6 +384,14 @@ bool Simulator::Advance(const Points& body0,
     s.exact_force.setZero();
     s.cloth_force.clear();
     s.solver->Forget();
+  }
+  // No contact would be found with it: the cloth would fall as if there were
+  // no body.
+  if (!body0.allFinite() || !body1.allFinite()) {
+    ++stats->failed;
+    ++stats->failures[kBodyNotFinite];
+    Forget();
+    return false;
   }
   ClothState moved = *state;
   const int substeps = s.setup.step.substeps;

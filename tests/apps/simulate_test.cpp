@@ -10,6 +10,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "invsim/body/motion.h"
 #include "invsim/io/npz.h"
 #include "invsim/io/obj.h"
 #include "invsim/io/pc2.h"
@@ -98,6 +99,33 @@ TEST_F(SimulateTest, WritesARunFolder) {
   const CommandResult seen = RunCommand("inspect " + Path("run"));
   EXPECT_EQ(seen.exit_code, 0) << seen.err;
   EXPECT_THAT(seen.out, HasSubstr("run folder"));
+}
+
+TEST_F(SimulateTest, RefusesAnglesOutOfAllProportion) {
+  Motion motion;
+  motion.poses.assign(4, PoseVector::Zero());
+  motion.translations.assign(4, Vector3d::Zero());
+  motion.poses[2][4] = 1e200;
+  WriteMotion(Path("m.npz"), motion);
+  ExpectRefused(
+      "simulate -q --set input.body=cube --set input.garment=sheet "
+      "--motion " +
+          Path("m.npz"),
+      3,
+      Path("m.npz") + ": poses of frame 2 holds 1e+200");
+}
+
+// A body that is nowhere ends the run, which says so, with a report.
+TEST_F(SimulateTest, FailsInTheOpenIfTheBodyIsNotFinite) {
+  const CommandResult result = RunCommand(
+      "simulate -q --garment tank_top --set input.edge=0.08 --frames 2 --set "
+      "'input.shape=[1e308, 1e308]' --out " +
+      Path("run"));
+  EXPECT_EQ(result.exit_code, 5) << result.err;
+  EXPECT_THAT(result.out,
+              StartsWith("Failed while dressing, in phase 'settle' (the body "
+                         "is not finite), after 0 of 2 frames."));
+  EXPECT_TRUE(std::filesystem::exists(Path("run/report.json")));
 }
 
 // Physics on the embedded shirt, body and walk: every step solved, nothing in

@@ -113,6 +113,14 @@ TEST_F(MotionIo, FaultsAreNamed) {
               "trans is f8 (1, 3): expected shape (2, 3)");
   ExpectError({{"trans", NpyArray::Doubles({2, 3}, {1, 2, NAN, 4, 5, 6})}},
               "trans holds nan (value 2): expected finite numbers");
+  ExpectError({{"trans", NpyArray::Doubles({2, 3}, {1, 2, 3, 4, -2e6, 6})}},
+              "trans of frame 1 holds -2e+06 (value 1): expected at most 1e+06 "
+              "m");
+  std::vector<double> poses(144);
+  poses[75] = 1e200;
+  ExpectError({{"poses", NpyArray::Doubles({2, 72}, poses)}},
+              "poses of frame 1 holds 1e+200 (value 3): expected at most 1e+06 "
+              "rad");
   ExpectError({{"mocap_framerate", NpyArray::Doubles({}, {-30})}},
               "mocap_framerate is -30.000000: expected a positive number");
   ExpectError({{"mocap_frame_rate", NpyArray::Doubles({}, {60})}},

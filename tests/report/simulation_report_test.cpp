@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace invsim {
@@ -10,6 +11,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 SimulationReport ExampleSimulation() {
   SimulationReport r;
@@ -60,6 +62,31 @@ TEST(SimulationReport, StatusIsOfTheFirstPartThatDidNotComplete) {
   r.relaxation.status = RunStatus::kFailed;
   EXPECT_EQ(Status(r), RunStatus::kFailed);
   EXPECT_THAT(Verdict(r), HasSubstr("Failed"));
+}
+
+TEST(SimulationReport, AFailureIsNamedAndItsStepsMeetNoTolerance) {
+  SimulationReport r = ExampleSimulation();
+  r.sequence.status = RunStatus::kFailed;
+  r.sequence.frames = 2;
+  StepStats& step = r.sequence.stats.step;
+  step.missed = 0;
+  step.failed = 1;
+  step.failures["the body is not finite"] = 1;
+  step.worst_residual = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(Verdict(r),
+              AllOf(HasSubstr("Failed in frame 2 (the body is not finite), "
+                              "after 2 of 3 frames."),
+                    HasSubstr("1 step had no result, the others met"),
+                    Not(HasSubstr("Every one")),
+                    Not(HasSubstr("inf"))));
+  step.missed = 3;
+  EXPECT_THAT(Verdict(r), HasSubstr("3 of 170 steps missed"));
+  EXPECT_THAT(SimulationText(r), HasSubstr("without a result      1"));
+  const auto json = nlohmann::json::parse(SimulationJson(r));
+  EXPECT_EQ(json["sequence"]["steps_failed_because"]["the body is not finite"],
+            1);
+  r.relaxation.status = RunStatus::kFailed;
+  EXPECT_THAT(Verdict(r), HasSubstr("Failed while dressing, in phase '"));
 }
 
 TEST(SimulationReport, JsonIsVersionedAndHoldsEveryFrame) {

@@ -136,6 +136,27 @@ TEST(Rollout, KeepsTheLastGoodStateIfItFails) {
   EXPECT_EQ(state.x, scene.sheet.placed);
 }
 
+// A body that is nowhere is no reason to let the cloth fall through it.
+TEST(Rollout, FailsInTheFrameWhoseBodyIsNotFinite) {
+  const Moving scene;
+  Simulator simulator = scene.Make();
+  ClothState state = scene.Start();
+  const RolloutResult result = SimulateSequence(
+      &simulator,
+      [&](int t) {
+        Points body = scene.At(t);
+        if (t == 2) body(1, 5) = std::numeric_limits<double>::quiet_NaN();
+        return body;
+      },
+      4,
+      30.0,
+      &state);
+  EXPECT_EQ(result.status, RunStatus::kFailed);
+  EXPECT_EQ(result.frames, 2);
+  EXPECT_EQ(result.stats.step.failures.at("the body is not finite"), 1);
+  EXPECT_TRUE(state.x.allFinite());
+}
+
 TEST(FrameStats, AddKeepsTheWorstAndTheLast) {
   FrameStats sum, a, b;
   a.seconds = 1;

@@ -41,7 +41,8 @@ struct Motion {
 //
 // Of poses (T,156) (SMPL-H) and (T,165) (SMPL-X) the first 66 numbers are the
 // 22 joints of the body; the two hand joints of SMPL stay straight. Nothing is
-// turned: see TurnWorld for files with z up. Throws InputError.
+// turned: see TurnWorld for files with z up. Throws InputError, also of numbers
+// beyond a million rad or m.
 Motion ReadMotion(const std::string& path);
 // The same of a file's bytes; `path` opens messages.
 Motion ParseMotion(std::string npz, const std::string& path);

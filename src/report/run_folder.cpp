@@ -59,6 +59,7 @@ RunFolder::RunFolder(const std::string& path,
     if (fs::exists(path) && !fs::is_directory(path))
       throw UsageError(path + ": is a file, expected a folder for the results");
     fs::create_directories(path);
+    lock_ = std::make_shared<FolderLock>(path);
     if (!fs::is_empty(path)) {
       if (!force)
         throw UsageError(path +

@@ -50,12 +50,14 @@ TEST_F(RunFolderTest, TakesAnEmptyFolderButNoFullOne) {
 }
 
 TEST_F(RunFolderTest, ForceRemovesTheEarlierRunAndNothingElse) {
-  const RunFolder first(root_.string(), false);
-  first.Write("config.resolved.toml", "");
-  first.Write("report.json", "old");
-  WriteFileBytes(first.Frame("cloth", 99), "old");
-  WriteFileBytes(first.File("cloth/notes.txt"), "keep");
-  WriteFileBytes(first.File("mine.txt"), "keep");
+  {
+    const RunFolder first(root_.string(), false);
+    first.Write("config.resolved.toml", "");
+    first.Write("report.json", "old");
+    WriteFileBytes(first.Frame("cloth", 99), "old");
+    WriteFileBytes(first.File("cloth/notes.txt"), "keep");
+    WriteFileBytes(first.File("mine.txt"), "keep");
+  }
   const RunFolder second(root_.string(), true);
   EXPECT_FALSE(fs::exists(root_ / "report.json"));
   EXPECT_FALSE(fs::exists(root_ / "cloth/000099.ply"));

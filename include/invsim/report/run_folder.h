@@ -8,29 +8,33 @@
 //   config.resolved.toml  body.npz  cloth.pc2  scene.glb
 //   body/000000.ply ...  cloth/000000.ply ...  checkpoint/
 //
-// Every file appears complete or not at all.
+// Every file appears complete or not at all. While a RunFolder, or a copy of
+// it, lives no other one can be made there, in this process or another one.
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "invsim/io/folder_lock.h"
 
 namespace invsim {
 
 class RunFolder {
  public:
   // The folder of a run that is to be resumed, as it is. Throws UsageError if
-  // it has no checkpoint.
+  // it has no checkpoint or another one is writing there.
   static RunFolder Reopen(const std::string& path);
 
   // Makes the folder, with those above it. Throws UsageError if there is
-  // something else of that name, or files in it and not `force`; InputError if
-  // it cannot be made or written to. With `force` the files of an earlier run,
-  // those named above, are removed, so that no frame of it is left among the
-  // new ones; anything else stays. UsageError, and all stays, if there is no
-  // config.resolved.toml in it (write that first: without it the folder is
-  // taken for the user's own), or if one of `inputs`, the paths that the run
-  // reads, would be removed (io/earlier_results.h).
+  // something else of that name, or files in it and not `force`, or another run
+  // writing there; InputError if it cannot be made or written to. With `force`
+  // the files of an earlier run, those named above, are removed, so that no
+  // frame of it is left among the new ones; anything else stays. UsageError,
+  // and all stays, if there is no config.resolved.toml in it (write that first:
+  // without it the folder is taken for the user's own), or if one of `inputs`,
+  // the paths that the run reads, would be removed (io/earlier_results.h).
   RunFolder(const std::string& path,
             bool force,
             const std::vector<std::string>& inputs = {});
@@ -46,9 +50,11 @@ class RunFolder {
   void Write(const std::string& name, std::string_view bytes) const;
 
  private:
-  explicit RunFolder(std::string path) : path_(std::move(path)) {}
+  explicit RunFolder(const std::string& path)
+      : path_(path), lock_(std::make_shared<FolderLock>(path)) {}
 
   std::string path_;
+  std::shared_ptr<const FolderLock> lock_;
 };
 
 }  // namespace invsim

@@ -24,6 +24,7 @@
 #include "invsim/report/run_folder.h"
 #include "invsim/sim/scene.h"
 #include "presets.h"
+#include "version.h"
 
 namespace invsim {
 namespace {
@@ -40,6 +41,15 @@ bool MayChange(const std::string& key) {
   return std::find(kMayChange.begin(), kMayChange.end(), key) !=
              kMayChange.end() ||
          key.ends_with(".iterations");
+}
+
+// All options but those a resumed run may be asked anew.
+std::string FixedOptions(const OptionTable& table) {
+  std::string text;
+  for (const OptionTable::Option& option : table.options())
+    if (!MayChange(option.key))
+      text += option.key + " = " + TomlText(option.get()) + "\n";
+  return text;
 }
 
 // One line of progress per stage.
@@ -256,15 +266,6 @@ ExitCode FitCommand::Run(const CommandContext& context) {
   // Refuses now what stage 1 need not be waited for.
   ChosenEffects(scene_, data.garment, data.material);
   const RunFolder folder = resumed ? *resumed : OpenFolder(context);
-  folder.Write(kResolvedConfig, ResolvedToml(*context.options));
-  FitReport report = StartReport(data);
-  FrameWriter writer(folder,
-                     data.garment,
-                     data.material,
-                     data.body.faces(),
-                     report.frames,
-                     report.frames_per_second,
-                     output_);
   std::unique_ptr<Simulator> simulator;
   FitScene scene{
       data.body,
@@ -279,15 +280,36 @@ ExitCode FitCommand::Run(const CommandContext& context) {
       data.start};
   scene.optimize = optimize_;
   scene.seed = static_cast<std::uint64_t>(context.run.seed);
+  scene.more_inputs = {{"the material", DigestOf(data.material)},
+                       {"an option", DigestOf(FixedOptions(*context.options))},
+                       {"the program", DigestOf(ProgramVersion())}};
+  if (resumed) {  // refused with nothing changed
+    scene.checkpoint = folder.Checkpoint();
+    CheckInputs(scene);
+  }
+  folder.Write(kResolvedConfig, ResolvedToml(*context.options));
   scene.checkpoint = folder.Checkpoint();
+  FitReport report = StartReport(data);
+  FrameWriter writer(folder,
+                     data.garment,
+                     data.material,
+                     data.body.faces(),
+                     report.frames,
+                     report.frames_per_second,
+                     output_);
   FitProgress progress(context.verbosity < 0, report.frames);
   report.result = FitSequence(scene, fit_, Observer(data, &progress, &writer));
   progress.End();
   report.effects = scene_.decisions;
   report.seconds = watch.seconds();
   if (report.result.termination == Termination::kInterrupted) {
-    std::cerr << "invsim: interrupted; go on with: invsim " << name()
-              << " --resume --out " << folder.path() << std::endl;
+    std::cerr << "invsim: interrupted"
+              << (report.result.resumable
+                      ? "; go on with"
+                      : " before the first body was found, nothing of which "
+                        "is kept; begin again with")
+              << ": invsim " << name() << " --resume --out " << folder.path()
+              << std::endl;
     return ExitCode::kInterrupted;
   }
   WriteFit(folder, &writer, &report);

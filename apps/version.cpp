@@ -9,7 +9,7 @@
 
 namespace invsim {
 
-std::string VersionText() {
+std::string ProgramVersion() {
   const auto dotted = [](int a, int b, int c) {
     return std::to_string(a) + "." + std::to_string(b) + "." +
            std::to_string(c);
@@ -21,7 +21,11 @@ std::string VersionText() {
          dotted(SUITESPARSE_MAIN_VERSION,
                 SUITESPARSE_SUB_VERSION,
                 SUITESPARSE_SUBSUB_VERSION) +
-         "\nBLAS " + openblas_get_config() + "\n";
+         "\n";
+}
+
+std::string VersionText() {
+  return ProgramVersion() + "BLAS " + openblas_get_config() + "\n";
 }
 
 }  // namespace invsim

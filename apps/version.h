@@ -6,6 +6,10 @@
 
 namespace invsim {
 
+// Our version and those of the libraries on which the steps taken depend, a
+// line each; not the BLAS, which chooses its code by the processor.
+std::string ProgramVersion();
+
 // Our version and those of the libraries on which the numbers depend, a line
 // each.
 std::string VersionText();

@@ -38,4 +38,8 @@ InterruptGuard::~InterruptGuard() {
 
 bool InterruptRequested() { return requested; }
 
+bool StopRequested(const StopPredicate& stop) {
+  return InterruptRequested() || (stop && stop());
+}
+
 }  // namespace invsim

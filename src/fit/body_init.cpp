@@ -56,7 +56,8 @@ class Initializer {
               const std::vector<Points>& clouds,
               const BodyInitOptions& options,
               std::uint64_t seed,
-              const InitObserver& note);
+              const InitObserver& note,
+              const StopPredicate& stop);
   BodyInit Run();
 
  private:
@@ -66,18 +67,28 @@ class Initializer {
                   const BodyParameters& start,
                   double width,
                   const FreeParameters& free,
-                  int iterations) const;
-  Scored TryLimbs(int t, const Scored& found) const;
-  Scored SearchFrame(int t) const;
-  Scored TrackFrame(int t, const BodyParameters& neighbour) const;
+                  int iterations);
+  Scored TryLimbs(int t, const Scored& found);
+  Scored SearchFrame(int t);
+  Scored TrackFrame(int t, const BodyParameters& neighbour);
   void Track(int anchor, const Scored& start);
-  bool Tell(const std::string& what) const { return !note_ || note_(what); }
+  void Refine(BodyInit* result);
+  bool Tell(const std::string& what) {
+    stopped_ = stopped_ || (note_ && !note_(what));
+    return MayGoOn();
+  }
+  bool MayGoOn() {
+    stopped_ = stopped_ || StopRequested(stop_);
+    return !stopped_;
+  }
 
   const BodyModel& body_;
   const std::vector<Points>& clouds_;
   const BodyInitOptions& options_;
   std::uint64_t seed_;
   const InitObserver& note_;
+  const StopPredicate& stop_;
+  bool stopped_ = false;  // as was asked for
   std::vector<bool> covered_;
   std::vector<Points> coarse_;
   BodySequence sequence_;
@@ -104,12 +115,14 @@ Initializer::Initializer(const BodyModel& body,
                          const std::vector<Points>& clouds,
                          const BodyInitOptions& options,
                          std::uint64_t seed,
-                         const InitObserver& note)
+                         const InitObserver& note,
+                         const StopPredicate& stop)
     : body_(body),
       clouds_(clouds),
       options_(options),
       seed_(seed),
-      note_(note) {
+      note_(note),
+      stop_(stop) {
   CheckExtent(clouds);
   const Points& skin = body.data().v_template;
   covered_ = CoveredVertices(skin,
@@ -141,7 +154,8 @@ Scored Initializer::FitFrame(int t,
                              const BodyParameters& start,
                              double width,
                              const FreeParameters& free,
-                             int iterations) const {
+                             int iterations) {
+  if (!MayGoOn()) return {start, kNoLimit};
   BodyPointsOptions points = options_.points;
   points.skin = {"cauchy", width};
   points.cloth.scale = std::max(points.cloth.scale, 0.5 * width);
@@ -154,14 +168,14 @@ Scored Initializer::FitFrame(int t,
   TrustRegionOptions ceres;
   ceres.iterations = iterations;
   ceres.function_tolerance = 1e-3;
-  const OptimizerSummary summary =
-      MakeLevenbergMarquardt(ceres)->Run(&objective, {});
+  const OptimizerSummary summary = MakeLevenbergMarquardt(ceres)->Run(
+      &objective, [this](const IterationRecord&) { return MayGoOn(); });
   BodyParameters end = x.Frame(0);
   Canonicalize(&end.pose);
   return {end, summary.final_cost};
 }
 
-Scored Initializer::SearchFrame(int t) const {
+Scored Initializer::SearchFrame(int t) {
   FreeParameters coarse;
   for (const int j : kFineJoints) coarse.joints[j] = false;
   std::vector<Scored> found;
@@ -180,7 +194,7 @@ Scored Initializer::SearchFrame(int t) const {
 }
 
 // Limb by limb: whether a start of that limb alone ends better.
-Scored Initializer::TryLimbs(int t, const Scored& found) const {
+Scored Initializer::TryLimbs(int t, const Scored& found) {
   Scored best = found;
   for (const Limb& limb : Limbs()) {
     FreeParameters only;
@@ -200,7 +214,7 @@ Scored Initializer::TryLimbs(int t, const Scored& found) const {
   return best;
 }
 
-Scored Initializer::TrackFrame(int t, const BodyParameters& neighbour) const {
+Scored Initializer::TrackFrame(int t, const BodyParameters& neighbour) {
   FreeParameters free;
   free.shape = false;
   const Scored near = FitFrame(t, neighbour, 0.1, free, 10);
@@ -216,6 +230,7 @@ void Initializer::Track(int anchor, const Scored& start) {
   for (const int direction : {1, -1}) {
     BodyParameters last = start.at;
     for (int t = anchor + direction; t >= 0 && t < n; t += direction) {
+      if (!MayGoOn()) return;
       Scored s = TrackFrame(t, last);
       std::vector<double> sorted = costs_;
       std::sort(sorted.begin(), sorted.end());
@@ -228,9 +243,28 @@ void Initializer::Track(int anchor, const Scored& start) {
       costs_.push_back(s.cost);
       last = s.at;
       last.shape = sequence_.shape;
-      if (!Tell("tracking frame " + std::to_string(t))) return;
+      Tell("tracked frame " + std::to_string(t));
     }
   }
+}
+
+// All frames together.
+void Initializer::Refine(BodyInit* result) {
+  std::vector<Points> fine;
+  for (size_t t = 0; t < clouds_.size(); ++t)
+    fine.push_back(Subsample(
+        clouds_[t], options_.fine_points, seed_, static_cast<int>(t)));
+  BodyPointsTerm term(body_, covered_, fine, options_.points, seed_);
+  Objective objective(
+      options_.priors, FreeParameters{}, &term, &sequence_, body_);
+  TrustRegionOptions ceres;
+  ceres.iterations = options_.iterations;
+  result->refinement = MakeLevenbergMarquardt(ceres)->Run(
+      &objective, [this](const IterationRecord& record) {
+        return Tell("all frames, iteration " +
+                    std::to_string(record.iteration) + ", cost " +
+                    std::to_string(record.cost));
+      });
 }
 
 BodyInit Initializer::Run() {
@@ -240,34 +274,21 @@ BodyInit Initializer::Run() {
   const int anchors = std::min(options_.anchors, n);
   for (int a = 0; a < anchors; ++a) {
     const int t = (2 * a + 1) * n / (2 * anchors);
-    if (!Tell("searching frame " + std::to_string(t))) break;
     const Scored s = SearchFrame(t);
-    if (best && s.cost >= best->cost) continue;
-    best = s;
-    result.anchor = t;
+    if (!best || s.cost < best->cost) {
+      best = s;
+      result.anchor = t;
+    }
+    if (!Tell("searched frame " + std::to_string(t))) break;
   }
-  if (!best) best = Scored{Starts(0)[0], 0};
   Track(result.anchor, *best);
-
-  std::vector<Points> fine;
-  for (int t = 0; t < n; ++t)
-    fine.push_back(Subsample(clouds_[t], options_.fine_points, seed_, t));
-  BodyPointsTerm term(body_, covered_, fine, options_.points, seed_);
-  Objective objective(
-      options_.priors, FreeParameters{}, &term, &sequence_, body_);
-  TrustRegionOptions ceres;
-  ceres.iterations = options_.iterations;
-  result.refinement = MakeLevenbergMarquardt(ceres)->Run(
-      &objective, [this](const IterationRecord& record) {
-        return Tell("all frames, iteration " +
-                    std::to_string(record.iteration) + ", cost " +
-                    std::to_string(record.cost));
-      });
+  if (MayGoOn())
+    Refine(&result);
+  else
+    result.refinement.reason = "A stop was asked for before it.";
   for (PoseVector& pose : sequence_.poses) Canonicalize(&pose);
   result.body = GaussianFilter(sequence_, options_.filter);
-  term.Evaluate(result.body,
-                std::numeric_limits<double>::infinity(),
-                &result.frame_costs);
+  result.complete = !stopped_;
   return result;
 }
 
@@ -278,8 +299,9 @@ BodyInit InitializeBody(const BodyModel& body,
                         const std::vector<Points>& clouds,
                         const BodyInitOptions& options,
                         std::uint64_t seed,
-                        const InitObserver& note) {
-  return Initializer(body, garment, clouds, options, seed, note).Run();
+                        const InitObserver& note,
+                        const StopPredicate& stop) {
+  return Initializer(body, garment, clouds, options, seed, note, stop).Run();
 }
 
 void Describe(OptionTable* table, BodyInitOptions* o) {

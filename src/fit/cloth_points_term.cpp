@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "invsim/base/interrupt.h"
 #include "invsim/base/stopwatch.h"
 #include "invsim/base/threads.h"
 #include "invsim/fit/coverage.h"
@@ -111,6 +110,7 @@ struct ClothPointsTerm::Impl {
   std::vector<int> every_vertex;
   std::vector<ClothFrame> frames;
   ClothPointsStats stats;
+  StopPredicate stop;
 };
 
 ClothPointsTerm::Impl::Impl(const BodyModel& model,
@@ -347,7 +347,7 @@ Evaluation ClothPointsTerm::Evaluate(const BodySequence& x,
   costs->assign(num_frames(), 0);
   double total = 0;
   for (int t = 0; t < num_frames(); ++t) {
-    if (InterruptRequested()) return Evaluation::kAbandoned;
+    if (StopRequested(impl_->stop)) return Evaluation::kStopped;
     impl_->frames[t].body = impl_->body.Pose(x.Frame(t));
     const Points& skin = impl_->frames[t].body->vertices();
     if (!skin.allFinite() || !impl_->rollout.Step(t, skin))
@@ -372,6 +372,10 @@ bool ClothPointsTerm::Linearize(std::vector<FrameBlock>* blocks) {
     impl_->stats.fixed_contacts += FixedContacts(impl_->rollout.record(t));
   impl_->stats.sensitivity_seconds += watch.seconds();
   return good;
+}
+
+void ClothPointsTerm::set_stop(StopPredicate stop) {
+  impl_->stop = std::move(stop);
 }
 
 void ClothPointsTerm::set_reference(const ClothReference& reference) {

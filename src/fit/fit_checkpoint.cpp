@@ -2,15 +2,52 @@
 #include "invsim/fit/fit_checkpoint.h"
 
 #include <filesystem>
+#include <sstream>
 
 #include "invsim/base/error.h"
 #include "invsim/body/motion.h"
+#include "invsim/io/file.h"
 #include "invsim/io/npz.h"
 
 namespace invsim {
 namespace {
 
 constexpr char kStart[] = "/start.npz";
+constexpr char kInputs[] = "/inputs.txt";
+
+// A line each: the digest, a blank, the name.
+std::string Text(const InputDigests& inputs) {
+  std::string text;
+  for (const auto& [name, digest] : inputs) text += digest + " " + name + "\n";
+  return text;
+}
+
+InputDigests Parse(const std::string& text) {
+  InputDigests inputs;
+  std::istringstream lines(text);
+  std::string digest, name;
+  while (lines >> digest && std::getline(lines >> std::ws, name))
+    inputs[name] = digest;
+  return inputs;
+}
+
+// What only one has, or another one.
+std::vector<std::string> Differences(const InputDigests& a,
+                                     const InputDigests& b) {
+  InputDigests all = a;
+  all.insert(b.begin(), b.end());
+  std::vector<std::string> names;
+  for (const auto& [name, ignored] : all)
+    if (!a.contains(name) || !b.contains(name) || a.at(name) != b.at(name))
+      names.push_back(name);
+  return names;
+}
+
+[[noreturn]] void RefuseToGoOn(const std::string& path,
+                               const std::string& what) {
+  throw InputError(path + ": " + what +
+                   "; choose another folder, or --force to begin anew");
+}
 
 NpyArray Rows(const Points& points) {
   return NpyArray::Doubles({points.cols(), 3},
@@ -32,9 +69,31 @@ std::string FitCheckpoint::Reference(int dressing) const {
   return folder_ + "/reference_" + std::to_string(dressing) + ".npz";
 }
 
+bool FitCheckpoint::HasStart() const {
+  return kept() && std::filesystem::exists(folder_ + kStart);
+}
+
+void FitCheckpoint::Open(const InputDigests& inputs) const {
+  if (!kept()) return;
+  const std::string path = folder_ + kInputs;
+  if (!std::filesystem::exists(path)) {
+    if (HasStart())
+      RefuseToGoOn(path, "is missing, and what the fit was made from unknown");
+    WriteFileBytes(path, Text(inputs));
+    return;
+  }
+  const std::vector<std::string> others =
+      Differences(Parse(ReadFileBytes(path)), inputs);
+  if (others.empty()) return;
+  std::string what = others[0];
+  if (others.size() > 1)
+    what += " and " + std::to_string(others.size() - 1) + " more";
+  RefuseToGoOn(path, what + " changed since the fit was begun");
+}
+
 std::optional<BodySequence> FitCheckpoint::LoadStart(int num_frames) const {
   const std::string path = folder_ + kStart;
-  if (!kept() || !std::filesystem::exists(path)) return std::nullopt;
+  if (!HasStart()) return std::nullopt;
   const Motion motion = ReadMotion(path);
   if (motion.num_frames() != num_frames)
     throw InputError(path + ": has " + std::to_string(motion.num_frames()) +

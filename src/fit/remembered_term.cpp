@@ -9,8 +9,8 @@
 #include <cstring>
 #include <limits>
 
+#include "invsim/base/digest.h"
 #include "invsim/base/error.h"
-#include "invsim/base/interrupt.h"
 
 namespace invsim {
 namespace {
@@ -28,16 +28,10 @@ struct Header {
   std::uint64_t checksum;
 };
 
-// FNV-1a.
 std::uint64_t Checksum(const std::vector<double>& record) {
-  std::uint64_t sum = 14695981039346656037u;
-  for (const double value : record) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof(bits));
-    sum = (sum ^ bits) * 1099511628211u;
-    sum ^= sum >> 29;
-  }
-  return sum;
+  Digest digest;
+  for (const double value : record) digest.Add(value);
+  return digest.value();
 }
 
 std::vector<double> Flat(const BodySequence& x) {
@@ -78,6 +72,8 @@ RememberedTerm::RememberedTerm(DataTerm* inner, const std::string& path)
   if (!file_) file_ = std::fopen(path.c_str(), "w+b");
   if (!file_)
     throw InputError(path + ": cannot be written: " + std::strerror(errno));
+  // Nothing that could not be written may wait to be written later.
+  std::setvbuf(file_, nullptr, _IONBF, 0);
   Load();
 }
 
@@ -93,13 +89,13 @@ void RememberedTerm::Load() {
   long at = sizeof(kMagic);
   if (got < sizeof(magic)) {
     std::rewind(file_);
-    std::fwrite(kMagic, 1, sizeof(kMagic), file_);
+    if (std::fwrite(kMagic, 1, sizeof(kMagic), file_) != sizeof(kMagic))
+      throw InputError(path_ + ": cannot be written: " + std::strerror(errno));
   } else {
     std::vector<double> record;
     long next = at;
     for (; ReadRecord(at, &record, &next); at = next) Accept(record, at);
   }
-  std::fflush(file_);
   // What was cut short must not stand in front of what follows.
   if (ftruncate(fileno(file_), at) != 0)
     throw InputError(path_ + ": cannot be written: " + std::strerror(errno));
@@ -151,8 +147,7 @@ void RememberedTerm::Append(const std::vector<double>& record) {
   const Header header{record.size(), Checksum(record)};
   if (std::fwrite(&header, sizeof(header), 1, file_) == 1 &&
       std::fwrite(record.data(), sizeof(double), record.size(), file_) ==
-          record.size() &&
-      std::fflush(file_) == 0) {
+          record.size()) {
     Accept(record, at);
     return;
   }
@@ -177,8 +172,7 @@ Evaluation RememberedTerm::Evaluate(const BodySequence& x,
   }
   const Evaluation outcome = inner_->Evaluate(x, cost_limit, costs);
   inner_is_here_ = outcome == Evaluation::kDone;
-  // Given up for a stop says nothing about the point.
-  if (outcome == Evaluation::kAbandoned && InterruptRequested()) return outcome;
+  if (outcome == Evaluation::kStopped) return outcome;
   std::vector<double> record = {
       kEvaluated, static_cast<double>(outcome), cost_limit};
   record.insert(record.end(), costs->begin(), costs->end());

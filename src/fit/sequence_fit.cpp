@@ -2,6 +2,7 @@
 #include "invsim/fit/sequence_fit.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <numeric>
 #include <sstream>
 
@@ -48,6 +49,22 @@ void CheckStart(const BodySequence& start, size_t frames) {
     finite = finite && start.poses[t].allFinite() &&
              start.translations[t].allFinite();
   if (!finite) throw InputError("the start is not finite");
+}
+
+InputDigests Inputs(const FitScene& scene) {
+  InputDigests inputs = scene.more_inputs;
+  for (size_t t = 0; t < scene.clouds.size(); ++t)
+    inputs["the points of frame " + std::to_string(t)] =
+        DigestOf(scene.clouds[t]);
+  inputs["the body"] = DigestOf(scene.body);
+  inputs["the garment"] = DigestOf(scene.garment);
+  std::ostringstream rate;
+  rate << std::setprecision(17) << scene.frames_per_second;
+  inputs["the frame rate"] = DigestOf(rate.str());
+  inputs["the seed"] = DigestOf(std::to_string(scene.seed));
+  if (scene.start) inputs["the start"] = DigestOf(*scene.start);
+  if (scene.reference) inputs["the worn cloth"] = DigestOf(*scene.reference);
+  return inputs;
 }
 
 // `reason`, a sentence, with the most frequent cause of failures in it.
@@ -117,6 +134,7 @@ class Fitter {
         checkpoint_(scene.checkpoint) {
     CheckClouds(scene.clouds);
     if (scene.start) CheckStart(*scene.start, scene.clouds.size());
+    CheckInputs(scene);
   }
 
   FitResult Run();
@@ -139,10 +157,10 @@ class Fitter {
   bool WantsAnotherRound() const;
   Dressing DressBody();
   std::unique_ptr<ClothPointsTerm> Term(const std::vector<Points>& clouds,
-                                        const ClothReference& reference) const;
-  double StartingCost(const ClothReference& reference) const;
+                                        const ClothReference& reference);
+  double StartingCost(const ClothReference& reference);
   std::unique_ptr<RememberedTerm> Remembered(int round);
-  OptimizerSummary Optimize(BodySequence* body);
+  std::optional<OptimizerSummary> Optimize(BodySequence* body);
   void FindUncertain();
   void Simulate();
   void Conclude();
@@ -154,6 +172,7 @@ class Fitter {
   FitCheckpoint checkpoint_;
   Stopwatch watch_;
   bool stopped_ = false;                   // as an observer asked
+  bool evaluation_stopped_ = false;        // one was cut short
   Simulator* simulator_ = nullptr;         // after stage 1
   std::unique_ptr<ClothPointsTerm> term_;  // none before something was worn
   FitResult result_;
@@ -168,35 +187,39 @@ void Fitter::FindStart() {
   } else if (scene_.start) {
     result_.start = *scene_.start;
   } else {
-    result_.init =
-        InitializeBody(scene_.body,
-                       scene_.garment,
-                       scene_.clouds,
-                       options_.init,
-                       scene_.seed,
-                       [this](const std::string& what) {
-                         return Heed(!observer_.init || observer_.init(what));
-                       });
+    result_.init = InitializeBody(
+        scene_.body,
+        scene_.garment,
+        scene_.clouds,
+        options_.init,
+        scene_.seed,
+        [this](const std::string& what) {
+          return Heed(!observer_.init || observer_.init(what));
+        },
+        [this] { return !MayGoOn(); });
     result_.start = result_.init->body;
   }
-  if (MayGoOn()) checkpoint_.Save(result_.start);
+  if (!result_.init || result_.init->complete) checkpoint_.Save(result_.start);
+  result_.resumable = checkpoint_.HasStart();
   result_.seconds.init = watch.seconds();
 }
 
-std::unique_ptr<ClothPointsTerm> Fitter::Term(
-    const std::vector<Points>& clouds, const ClothReference& reference) const {
-  return std::make_unique<ClothPointsTerm>(scene_.body,
-                                           simulator_,
-                                           scene_.garment.faces,
-                                           VertexAreas(scene_.garment),
-                                           clouds,
-                                           scene_.frames_per_second,
-                                           reference,
-                                           options_.data);
+std::unique_ptr<ClothPointsTerm> Fitter::Term(const std::vector<Points>& clouds,
+                                              const ClothReference& reference) {
+  auto term = std::make_unique<ClothPointsTerm>(scene_.body,
+                                                simulator_,
+                                                scene_.garment.faces,
+                                                VertexAreas(scene_.garment),
+                                                clouds,
+                                                scene_.frames_per_second,
+                                                reference,
+                                                options_.data);
+  term->set_stop([this] { return evaluation_stopped_ = !MayGoOn(); });
+  return term;
 }
 
 // Of the first frames, from this cloth.
-double Fitter::StartingCost(const ClothReference& reference) const {
+double Fitter::StartingCost(const ClothReference& reference) {
   const auto judged = std::min<size_t>(kJudgedFrames, scene_.clouds.size());
   const std::unique_ptr<ClothPointsTerm> term =
       Term({scene_.clouds.begin(), scene_.clouds.begin() + judged}, reference);
@@ -217,6 +240,8 @@ Dressing Fitter::DressBody() {
   if (!known.reference) known.reference = scene_.reference;
   if (known.reference) return known;
   const Stopwatch watch;
+  // Something has to be worn, however late it is.
+  bool wearable = result_.kept >= 0;
   std::vector<BodyParameters> motion;
   for (int t = 0; t < result_.body.num_frames(); ++t)
     motion.push_back(result_.body.Frame(t));
@@ -224,9 +249,14 @@ Dressing Fitter::DressBody() {
       {scene_.body, scene_.garment, motion, scene_.frames_per_second},
       options_.relaxation,
       simulator_,
-      [this](const ClothReference& cloth) { return StartingCost(cloth); },
-      observer_.relaxation);
-  if (dressing.reference) checkpoint_.Save(round, *dressing.reference);
+      [&](const ClothReference& cloth) {
+        wearable = true;
+        return StartingCost(cloth);
+      },
+      observer_.relaxation,
+      [&] { return wearable && !MayGoOn(); });
+  if (dressing.reference && !dressing.cut_short)
+    checkpoint_.Save(round, *dressing.reference);
   result_.seconds.dressing += watch.seconds();
   return dressing;
 }
@@ -238,8 +268,8 @@ std::unique_ptr<RememberedTerm> Fitter::Remembered(int round) {
                                           checkpoint_.Evaluations(round));
 }
 
-// Stage 3.
-OptimizerSummary Fitter::Optimize(BodySequence* body) {
+// Stage 3; nothing if it was stopped before its start was evaluated.
+std::optional<OptimizerSummary> Fitter::Optimize(BodySequence* body) {
   const Stopwatch watch;
   const std::unique_ptr<RememberedTerm> remembered =
       Remembered(static_cast<int>(result_.rounds.size()));
@@ -271,6 +301,11 @@ OptimizerSummary Fitter::Optimize(BodySequence* body) {
   if (remembered) {
     result_.recalled += remembered->recalled();
     if (!remembered->error().empty()) throw InputError(remembered->error());
+  }
+  if (evaluation_stopped_) {  // whatever the optimiser made of it
+    if (summary.iterations.empty()) return std::nullopt;
+    summary.termination = Termination::kInterrupted;
+    summary.reason = "A stop was asked for.";
   }
   return summary;
 }
@@ -314,6 +349,7 @@ void Fitter::FindUncertain() {
       scene_.body);
   result_.uncertainty = FindUncertainty(&objective);
   result_.seconds.uncertainty = result_.uncertainty->seconds;
+  if (evaluation_stopped_) result_.uncertainty.reset();
 }
 
 // Stage 4.
@@ -321,6 +357,7 @@ void Fitter::Simulate() {
   const Stopwatch watch;
   for (PoseVector& pose : result_.body.poses) Canonicalize(&pose);
   std::vector<double> costs;
+  term_->set_stop({});  // without it there is no result
   term_->rollout().set_on_frame(observer_.frame);
   result_.simulated =
       term_->Evaluate(result_.body, kNoLimit, &costs) == Evaluation::kDone;
@@ -333,7 +370,8 @@ bool Fitter::CutShort() const {
   const OptimizerSummary* optimizer = result_.optimizer();
   if (!optimizer) return scene_.optimize || !MayGoOn();
   const FitRound& last = result_.rounds.back();
-  const bool begun = last.optimizer || !last.dressing.reference;
+  const bool begun =
+      last.optimizer || (!last.dressing.reference && !last.dressing.cut_short);
   const bool ended = !last.optimizer ||
                      last.optimizer->termination != Termination::kInterrupted;
   const bool uncertain = options_.uncertainty && optimizer->usable();
@@ -378,8 +416,10 @@ void Fitter::Conclude() {
 FitResult Fitter::Run() {
   FindStart();
   result_.body = result_.start;
-  simulator_ = scene_.make_simulator(result_.start);
-  if (!InterruptRequested()) GoThroughRound();
+  if (!InterruptRequested()) {
+    simulator_ = scene_.make_simulator(result_.start);
+    GoThroughRound();
+  }
   while (MayGoOn() && WantsAnotherRound()) GoThroughRound();
   if (result_.kept >= 0 && !InterruptRequested()) {
     term_->set_reference(*result_.reference());
@@ -459,6 +499,11 @@ void Describe(OptionTable* table, FitOptions* o) {
               .at_least = 0});
   for (const std::string& name : Optimizers().names())
     table->AddSection(name, o->optimizers.at(name).get());
+}
+
+void CheckInputs(const FitScene& scene) {
+  if (!scene.checkpoint.empty())
+    FitCheckpoint(scene.checkpoint).Open(Inputs(scene));
 }
 
 FitResult FitSequence(const FitScene& scene,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "invsim/base/interrupt.h"
 #include "invsim/body/motion.h"
 #include "invsim/sim/body_path.h"
 
@@ -19,7 +18,8 @@ class Dressing {
   Dressing(const RelaxationScene& scene,
            const RelaxationOptions& options,
            Simulator* simulator,
-           const RelaxationCallback& on_frame);
+           const RelaxationCallback& on_frame,
+           const StopPredicate& stop);
 
   RelaxationResult Run();
 
@@ -44,6 +44,7 @@ class Dressing {
   const RelaxationScene& scene_;
   const RelaxationOptions& options_;
   const RelaxationCallback& on_frame_;
+  const StopPredicate& stop_;
   const double frame_seconds_;  // of as many steps as the simulator takes
   StartingPlace start_;
   BodyParameters goal_;  // where it holds
@@ -61,10 +62,12 @@ ClothState PlacedGarment(const Garment& garment, const StartingPlace& start) {
 Dressing::Dressing(const RelaxationScene& scene,
                    const RelaxationOptions& options,
                    Simulator* simulator,
-                   const RelaxationCallback& on_frame)
+                   const RelaxationCallback& on_frame,
+                   const StopPredicate& stop)
     : scene_(scene),
       options_(options),
       on_frame_(on_frame),
+      stop_(stop),
       frame_seconds_(simulator->step_options().substeps /
                      options.steps_per_second),
       start_(PlaceAtStart(
@@ -78,7 +81,7 @@ bool Dressing::Step(RelaxationPhase phase,
                     const BodyParameters& body,
                     bool damped) {
   result_.phase = phase;
-  if (InterruptRequested()) {
+  if (StopRequested(stop_)) {
     result_.status = RunStatus::kInterrupted;
     return false;
   }
@@ -210,8 +213,9 @@ BodyParameters DressingBody(const BodyParameters& start,
 RelaxationResult Relax(const RelaxationScene& scene,
                        const RelaxationOptions& options,
                        Simulator* simulator,
-                       const RelaxationCallback& on_frame) {
-  return Dressing(scene, options, simulator, on_frame).Run();
+                       const RelaxationCallback& on_frame,
+                       const StopPredicate& stop) {
+  return Dressing(scene, options, simulator, on_frame, stop).Run();
 }
 
 }  // namespace invsim

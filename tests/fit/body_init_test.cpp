@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "invsim/fit/body_init.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <csignal>
 
 #include "dressed_mannequin.h"
 #include "invsim/body/rotation.h"
+#include "sim/test_scene.h"
 
 namespace invsim {
 namespace {
@@ -57,6 +61,7 @@ class Init : public ::testing::Test {
 
 TEST_F(Init, FindsABodyItWasNotToldTheHeadingOf) {
   const BodyInit init = Run();
+  EXPECT_TRUE(init.complete);
   ASSERT_EQ(init.body.num_frames(), kFrames);
   for (int t = 0; t < kFrames; ++t)
     EXPECT_LT(MeanVertexError(person_.body(), init.body.Frame(t), TruthAt(t)),
@@ -126,12 +131,35 @@ TEST_F(Init, RefusesAnEmptyFrame) {
 }
 
 TEST_F(Init, StopsWhenAsked) {
-  int calls = 0;
-  InitializeBody(
-      person_.body(), garment_, clouds_, options_, 1, [&](const std::string&) {
-        return ++calls < 1;
+  options_.headings = 1;
+  std::vector<std::string> done;
+  const BodyInit init = InitializeBody(person_.body(),
+                                       garment_,
+                                       clouds_,
+                                       options_,
+                                       1,
+                                       [&](const std::string& what) {
+                                         done.push_back(what);
+                                         return false;
+                                       });
+  EXPECT_THAT(done, ::testing::ElementsAre("searched frame 2"));
+  EXPECT_FALSE(init.complete);
+  EXPECT_EQ(init.body.num_frames(), kFrames);
+}
+
+// Within the optimisation of a frame, and nothing is begun after that.
+TEST_F(Init, StopsInTheMiddleOfAFrame) {
+  int asked = 0;
+  const BodyInit init =
+      InitializeBody(person_.body(), garment_, clouds_, options_, 1, {}, [&] {
+        return ++asked > 3;
       });
-  EXPECT_LE(calls, 3);
+  EXPECT_EQ(asked, 4);
+  EXPECT_FALSE(init.complete);
+  EXPECT_EQ(init.body.num_frames(), kFrames);
+  const InterruptedTest guard;
+  std::raise(SIGINT);
+  EXPECT_FALSE(Run().complete);
 }
 
 }  // namespace

@@ -231,6 +231,19 @@ TEST_F(ClothPoints, GivesUpAboveTheLimit) {
   EXPECT_EQ(term.Evaluate(start_, kNoLimit, &costs), Evaluation::kDone);
 }
 
+TEST_F(ClothPoints, StopsBetweenFrames) {
+  ClothPointsTerm term = MakeTerm(kFrames);
+  int asked = 0;
+  term.set_stop([&] { return ++asked > 1; });
+  std::vector<double> costs;
+  EXPECT_EQ(term.Evaluate(start_, kNoLimit, &costs), Evaluation::kStopped);
+  EXPECT_EQ(asked, 2);
+  EXPECT_GT(costs[0], 0);
+  EXPECT_EQ(costs[1], 0);
+  term.set_stop({});
+  EXPECT_EQ(term.Evaluate(start_, kNoLimit, &costs), Evaluation::kDone);
+}
+
 // The same point twice is the same cost, whatever was evaluated in between.
 TEST_F(ClothPoints, DependsOnThePointAlone) {
   ClothPointsTerm term = MakeTerm(kFrames);

@@ -26,9 +26,13 @@ class DressingTest : public ::testing::Test {
         MakeSetup(scene, body_, garment_, PlainCloth()));
   }
 
-  Dressing DressBy(const DressingCost& cost) {
-    return Dress(
-        {body_, garment_, motion_, 30}, options_, simulator_.get(), cost);
+  Dressing DressBy(const DressingCost& cost, const StopPredicate& stop = {}) {
+    return Dress({body_, garment_, motion_, 30},
+                 options_,
+                 simulator_.get(),
+                 cost,
+                 {},
+                 stop);
   }
   // Put on as a person did of whom all that is known are the points.
   Points Worn(bool carried) {
@@ -97,6 +101,36 @@ TEST_F(DressingTest, OfTheShapeTheGarmentWasMadeForIsTriedOnce) {
   const Dressing dressing = DressBy([](const ClothReference&) { return 1.0; });
   EXPECT_EQ(dressing.tries.size(), 1u);
   EXPECT_EQ(dressing.worn, 0);
+}
+
+// It ends with what is worn by then: nothing, or the one way, be it judged or
+// not.
+TEST_F(DressingTest, EndsWithWhatIsWornWhenAskedToStop) {
+  const Dressing nothing =
+      DressBy([](const ClothReference&) { return 1.0; }, [] { return true; });
+  EXPECT_TRUE(nothing.cut_short);
+  EXPECT_FALSE(nothing.reference);
+  for (const int judged : {1, 2}) {
+    int seen = 0;
+    const Dressing one = DressBy(
+        [&](const ClothReference&) {
+          ++seen;
+          return 1.0 / seen;  // the other way looks better
+        },
+        [&] { return seen == judged; });
+    EXPECT_TRUE(one.cut_short);
+    EXPECT_EQ(one.worn, 0);
+    EXPECT_TRUE(one.reference);
+  }
+  // In the middle of the other way.
+  int seen = 0, frames = 0;
+  const Dressing one =
+      DressBy([&](const ClothReference&) { return 1.0 / ++seen; },
+              [&] { return seen == 1 && ++frames > 3; });
+  EXPECT_EQ(one.tries.size(), 2u);
+  EXPECT_EQ(one.worn, 0);
+  EXPECT_TRUE(one.cut_short);
+  EXPECT_FALSE(DressBy([](const ClothReference&) { return 1.0; }).cut_short);
 }
 
 // While the one way is judged or the other: nothing is worn by half a

@@ -67,6 +67,41 @@ TEST(FitCheckpoint, ForgetsWhatWasDressedOnAnotherBody) {
   EXPECT_FALSE(std::filesystem::exists(checkpoint.Evaluations(1)));
 }
 
+TEST(FitCheckpoint, GoesOnFromTheSameInputsOnly) {
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / "invsim_fit_inputs";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const FitCheckpoint checkpoint(folder.string());
+  const auto refusal = [&](const InputDigests& inputs) -> std::string {
+    try {
+      checkpoint.Open(inputs);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const InputDigests inputs = {{"the body", "0a"}, {"the points", "1b"}};
+  EXPECT_EQ(refusal(inputs), "");
+  EXPECT_EQ(refusal(inputs), "");
+  const std::string file = (folder / "inputs.txt").string(),
+                    rest =
+                        " changed since the fit was begun; choose another "
+                        "folder, or --force to begin anew";
+  EXPECT_EQ(refusal({{"the body", "0a"}, {"the points", "2b"}}),
+            file + ": the points" + rest);
+  EXPECT_EQ(refusal({{"the body", "0a"}}), file + ": the points" + rest);
+  EXPECT_EQ(
+      refusal({{"a start", "3"}, {"the body", "0"}, {"the points", "1b"}}),
+      file + ": a start and 1 more" + rest);
+  EXPECT_EQ(refusal(inputs), "");
+  // What was begun by something that kept no digests.
+  checkpoint.Save(BodySequence{{}, {PoseVector::Zero()}, {Vector3d::Zero()}});
+  std::filesystem::remove(file);
+  EXPECT_NE(refusal(inputs).find("inputs.txt: is missing"), std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(FitCheckpoint, FindsNothingWhereNothingIsKept) {
   const FitCheckpoint none("");
   none.Save(BodySequence{});

@@ -2,7 +2,9 @@
 #include "invsim/fit/remembered_term.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "invsim/base/error.h"
@@ -161,18 +163,80 @@ TEST_F(RememberedTermTest, RefusesAnotherFile) {
   }
 }
 
-// /dev/full fails every write.
-TEST_F(RememberedTermTest, SaysSoWhenTheDiskIsFull) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP();
+TEST_F(RememberedTermTest, AStopSaysNothingAboutThePoint) {
   ToyTerm toy(Constant(0.2));
-  try {
-    RememberedTerm term(&toy, "/dev/full");
-    std::vector<double> costs;
+  std::vector<double> costs;
+  {
+    RememberedTerm term(&toy, path_);
+    toy.stopped = true;
+    EXPECT_EQ(term.Evaluate(Constant(0.1), kNoLimit, &costs),
+              Evaluation::kStopped);
+    toy.stopped = false;
     EXPECT_EQ(term.Evaluate(Constant(0.1), kNoLimit, &costs),
               Evaluation::kDone);
-    EXPECT_THAT(term.error(), ::testing::HasSubstr("/dev/full"));
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("/dev/full"));
+  }
+  EXPECT_EQ(RememberedTerm(&toy, path_).known(), 1);
+  EXPECT_EQ(toy.evaluations, 2);
+}
+
+// Files of this process that may not grow stand for a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &limit_);
+    const rlimit full = {bytes, limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &limit_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit limit_;
+  void (*handler_)(int);
+};
+
+TEST_F(RememberedTermTest, RefusesADiskThatIsFullFromTheStart) {
+  ToyTerm toy(Constant(0.2));
+  const FullDisk full(0);
+  EXPECT_THAT([&] { RememberedTerm term(&toy, path_); },
+              ::testing::ThrowsMessage<InputError>(
+                  ::testing::StartsWith(path_ + ": cannot be written")));
+}
+
+// Wherever in a record the disk ends: it is taken back, what is before it is
+// good, and the term goes on without the file.
+TEST_F(RememberedTermTest, TakesBackARecordForWhichThereIsNoRoom) {
+  for (const int room : {1, 20, 1000, 50000}) {
+    fs::remove(path_);
+    ToyTerm toy(Constant(0.2));
+    std::vector<double> costs;
+    std::vector<FrameBlock> blocks;
+    std::uintmax_t size = 0;
+    {
+      RememberedTerm term(&toy, path_);
+      term.Evaluate(Constant(0.1), kNoLimit, &costs);
+      ASSERT_TRUE(term.Linearize(&blocks));
+      size = fs::file_size(path_);
+      const FullDisk full(size + room);
+      EXPECT_EQ(term.Evaluate(Constant(0.3), kNoLimit, &costs),
+                Evaluation::kDone);
+      EXPECT_TRUE(term.Linearize(&blocks));
+      EXPECT_THAT(term.error(), ::testing::StartsWith(path_ + ": cannot be"));
+      term.Evaluate(Constant(0.1), kNoLimit, &costs);
+      EXPECT_TRUE(term.Linearize(&blocks));
+      EXPECT_EQ(term.recalled(), 2);
+    }
+    // With much room the evaluation found place, not the linearisation.
+    const bool evaluated = room > 3000;
+    EXPECT_EQ(fs::file_size(path_) > size, evaluated);
+    RememberedTerm term(&toy, path_);
+    EXPECT_EQ(term.known(), evaluated ? 2 : 1);
+    const int before = toy.evaluations;
+    term.Evaluate(Constant(0.1), kNoLimit, &costs);
+    EXPECT_TRUE(term.Linearize(&blocks));
+    EXPECT_EQ(toy.evaluations, before);
   }
 }
 

@@ -306,6 +306,100 @@ TEST_F(SequenceFitTest, GivesUpADressingWhoseFirstStepStaysFarAbove) {
   EXPECT_EQ(fit(&alone).rounds[0].optimizer->final_cost, 7);
 }
 
+// Makes nothing of evaluations it cannot have.
+class SlowOptimizer : public Optimizer {
+ public:
+  explicit SlowOptimizer(double seconds) : seconds_(seconds) {}
+  OptimizerSummary Run(Objective* objective,
+                       const IterationObserver& observer) const override {
+    OptimizerSummary summary;
+    summary.termination = Termination::kStalled;
+    IterationRecord& record = summary.iterations.emplace_back();
+    EXPECT_TRUE(objective->Evaluate(&record.cost, nullptr));
+    summary.initial_cost = summary.final_cost = record.cost;
+    EXPECT_TRUE(observer(record));
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
+    objective->x()->translations[0].x() += 0.001;
+    double cost;
+    EXPECT_FALSE(objective->Evaluate(&cost, nullptr));
+    objective->x()->translations[0].x() -= 0.001;
+    return summary;
+  }
+
+ private:
+  double seconds_;
+};
+
+class SlowChoice : public Choice<Optimizer> {
+ public:
+  explicit SlowChoice(double seconds) : seconds_(seconds) {}
+  void AddOptions(OptionTable*) override {}
+  std::unique_ptr<Optimizer> Make() const override {
+    return std::make_unique<SlowOptimizer>(seconds_);
+  }
+
+ private:
+  double seconds_;
+};
+
+TEST_F(SequenceFitTest, ATimeLimitEndsAnEvaluation) {
+  options_.optimizer = "slow";
+  options_.time_limit = 3;
+  options_.optimizers["slow"] =
+      std::make_unique<SlowChoice>(options_.time_limit);
+  const FitResult result = Fit(true);
+  EXPECT_EQ(result.termination, Termination::kTimeLimit) << result.reason;
+  EXPECT_TRUE(result.usable());
+  EXPECT_EQ(result.optimizer()->termination, Termination::kInterrupted);
+  EXPECT_FALSE(result.uncertainty);
+}
+
+// What is left of it is dressed, and simulated, once.
+TEST_F(SequenceFitTest, ATimeLimitThatIsOverAtOnceLeavesACloth) {
+  dressed_ = false;
+  start_.shape[0] = 1;
+  options_.time_limit = 1e-9;
+  const FitResult result = Fit(true);
+  EXPECT_EQ(result.termination, Termination::kTimeLimit) << result.reason;
+  EXPECT_TRUE(result.usable());
+  ASSERT_EQ(result.rounds.size(), 1u);
+  EXPECT_EQ(result.rounds[0].dressing.tries.size(), 1u);
+  EXPECT_TRUE(result.rounds[0].dressing.cut_short);
+}
+
+TEST_F(SequenceFitTest, GoesOnFromTheSameInputsOnly) {
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / "invsim_same_inputs";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  checkpoint_ = folder.string();
+  Fit();
+  EXPECT_NO_THROW(Fit());
+  const auto expect_named = [&](const std::string& what) {
+    ExpectRefused(checkpoint_ + "/inputs.txt: " + what +
+                  " changed since the fit was begun; choose another folder, "
+                  "or --force to begin anew");
+  };
+  const std::vector<Points> clouds = clouds_;
+  clouds_[1].array() += 0.05;
+  expect_named("the points of frame 1");
+  clouds_ = clouds;
+  start_.translations[0].x() += 1e-9;
+  expect_named("the start");
+  start_.translations[0].x() = 0;
+  garment_.rest(0, 3) += 1e-6;
+  expect_named("the garment");
+  garment_ = SheetAboveBall(4, 0.2);
+  BodyModelData data = body_.data();
+  data.shapedirs(5, 0) += 1e-6;
+  const BodyModel body = body_;
+  body_ = BodyModel(data);
+  expect_named("the body");
+  body_ = body;
+  EXPECT_NO_THROW(Fit());
+  std::filesystem::remove_all(folder);
+}
+
 // The time is over while the garment is put on again.
 TEST_F(SequenceFitTest, ATimeLimitInTheNextDressingIsReported) {
   dressed_ = false;

@@ -29,6 +29,7 @@ class ToyTerm : public DataTerm {
                       std::vector<double>* costs) override {
     ++evaluations;
     x_ = x;
+    if (stopped) return Evaluation::kStopped;
     if (x.translations[0][0] > wall) return Evaluation::kFailed;
     costs->assign(num_frames(), 0);
     double total = 0;
@@ -48,6 +49,7 @@ class ToyTerm : public DataTerm {
   double wall = std::numeric_limits<double>::infinity();
   // Beyond this there is a cost, but no derivative.
   double cliff = std::numeric_limits<double>::infinity();
+  bool stopped = false;  // whether a stop was asked for
   int evaluations = 0;
 
  private:

@@ -30,8 +30,10 @@ struct Scene {
   }
   RelaxationResult Run(const RelaxationOptions& relaxation,
                        Simulator* simulator,
-                       const RelaxationCallback& callback = {}) const {
-    return Relax({body, sheet, motion, 30.0}, relaxation, simulator, callback);
+                       const RelaxationCallback& callback = {},
+                       const StopPredicate& stop = {}) const {
+    return Relax(
+        {body, sheet, motion, 30.0}, relaxation, simulator, callback, stop);
   }
 
   BodyModel body = BallBody();
@@ -154,6 +156,16 @@ TEST(Relaxation, StopsWhenInterrupted) {
   EXPECT_EQ(result.status, RunStatus::kInterrupted);
   EXPECT_EQ(result.frames, 3);
   EXPECT_EQ(result.phase, RelaxationPhase::kSettle);
+}
+
+TEST(Relaxation, StopsWhenAsked) {
+  const Scene scene;
+  Simulator simulator = scene.Make();
+  int asked = 0;
+  const RelaxationResult result =
+      scene.Run({}, &simulator, {}, [&] { return ++asked > 3; });
+  EXPECT_EQ(result.status, RunStatus::kInterrupted);
+  EXPECT_EQ(result.frames, 3);
 }
 
 TEST(Relaxation, HasOptionsAndPhaseNames) {

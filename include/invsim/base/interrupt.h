@@ -6,6 +6,8 @@
 // raises a flag that long work looks at between steps, to write a checkpoint
 // and end in order. The same signal again ends the process at once.
 
+#include <functional>
+
 namespace invsim {
 
 // While one lives, the two signals raise the flag. One at a time.
@@ -21,6 +23,13 @@ class InterruptGuard {
 
 // Whether a stop was asked for since the last guard was made.
 bool InterruptRequested();
+
+// What long work is given to ask, at the same places, whether its caller has
+// had enough of it (a time limit). Once true it stays true. Empty: never.
+using StopPredicate = std::function<bool()>;
+
+// Whether a stop was asked for either way.
+bool StopRequested(const StopPredicate& stop);
 
 }  // namespace invsim
 

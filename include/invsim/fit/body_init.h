@@ -21,6 +21,7 @@
 #include <functional>
 #include <string>
 
+#include "invsim/base/interrupt.h"
 #include "invsim/cloth/garment.h"
 #include "invsim/fit/body_points_term.h"
 #include "invsim/fit/optimizer.h"
@@ -44,13 +45,14 @@ void Describe(OptionTable* table, BodyInitOptions* options);
 
 struct BodyInit {
   BodySequence body;
-  int anchor = 0;                   // the frame tracking began with
-  std::vector<double> frame_costs;  // of the last stage
-  OptimizerSummary refinement;      // of the last stage
+  int anchor = 0;               // the frame tracking began with
+  OptimizerSummary refinement;  // of the last stage
+  bool complete = true;  // false: a stop was asked for, this is what there was
 };
 
-// `clouds`: one per frame, metres, none empty. `note` is told what is going
-// on, and may answer false to stop early. Throws InputError if there is no
+// `clouds`: one per frame, metres, none empty. `note` is told what was done,
+// and may answer false to stop early; so may `stop`, asked within every
+// optimisation, and InterruptRequested(). Throws InputError if there is no
 // frame, or if points and body cannot be of one size (wrong unit).
 using InitObserver = std::function<bool(const std::string& what)>;
 BodyInit InitializeBody(const BodyModel& body,
@@ -58,7 +60,8 @@ BodyInit InitializeBody(const BodyModel& body,
                         const std::vector<Points>& clouds,
                         const BodyInitOptions& options,
                         std::uint64_t seed,
-                        const InitObserver& note);
+                        const InitObserver& note,
+                        const StopPredicate& stop = {});
 
 }  // namespace invsim
 

@@ -24,6 +24,7 @@
 #include <memory>
 #include <vector>
 
+#include "invsim/base/interrupt.h"
 #include "invsim/body/body_model.h"
 #include "invsim/fit/cloth_rollout.h"
 #include "invsim/fit/data_term.h"
@@ -88,12 +89,14 @@ class ClothPointsTerm : public DataTerm {
   ~ClothPointsTerm() override;
 
   int num_frames() const override;
-  // Gives up when InterruptRequested().
+  // kStopped when InterruptRequested(), or as set_stop's predicate says.
   Evaluation Evaluate(const BodySequence& x,
                       double cost_limit,
                       std::vector<double>* costs) override;
   bool Linearize(std::vector<FrameBlock>* blocks) override;
 
+  // Asked before every frame of an evaluation.
+  void set_stop(StopPredicate stop);
   // From now on the cloth of the first frame is led from there.
   void set_reference(const ClothReference& reference);
 

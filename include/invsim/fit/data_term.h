@@ -17,8 +17,9 @@ namespace invsim {
 
 enum class Evaluation {
   kDone,
-  kAbandoned,  // the cost is above the limit, or a stop was asked for
-  kFailed      // cannot be evaluated here
+  kAbandoned,  // the cost is above the limit
+  kFailed,     // cannot be evaluated here
+  kStopped     // a stop was asked for; says nothing about the point
 };
 
 // The cost limit of an evaluation that shall not be given up.

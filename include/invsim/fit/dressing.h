@@ -43,6 +43,7 @@ struct Dressing {
   std::vector<DressingTry> tries;
   int worn = -1;  // of the tries; -1: none came to an end, or none was needed
   std::optional<ClothReference> reference;
+  bool cut_short = false;  // by `stop`: not all was tried or compared
 };
 
 // The cost of starting from this cloth.
@@ -50,12 +51,14 @@ using DressingCost = std::function<double(const ClothReference&)>;
 
 // `scene.garment` is the one made for shape zero, and scene.motion begins with
 // the body to be dressed. Ends early, with nothing worn, if
-// InterruptRequested().
+// InterruptRequested(); and with what is worn until then, if anything, once
+// `stop` says so.
 Dressing Dress(const RelaxationScene& scene,
                const RelaxationOptions& options,
                Simulator* simulator,
                const DressingCost& cost,
-               const RelaxationCallback& on_frame = {});
+               const RelaxationCallback& on_frame = {},
+               const StopPredicate& stop = {});
 
 }  // namespace invsim
 

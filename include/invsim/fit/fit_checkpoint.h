@@ -4,6 +4,7 @@
 
 // The files in which a fit leaves what it has (sequence_fit.h):
 //
+//   inputs.txt         digests of what the fit is made from, by name
 //   start.npz          the body of stage 1, AMASS layout
 //   reference_K.npz    body (V,3), x and v (N,3): the cloth at rest of stage 2,
 //                      dressed for the K-th time
@@ -18,6 +19,7 @@
 
 #include "invsim/fit/body_sequence.h"
 #include "invsim/fit/cloth_rollout.h"
+#include "invsim/fit/input_digests.h"
 
 namespace invsim {
 
@@ -28,6 +30,12 @@ class FitCheckpoint {
 
   bool kept() const { return !folder_.empty(); }
   std::string Evaluations(int dressing) const;
+
+  // Whether there is something to go on from.
+  bool HasStart() const;
+  // Notes what a new fit is made from. Of one that goes on: throws InputError,
+  // naming what is another now, if it was made from something else.
+  void Open(const InputDigests& inputs) const;
 
   // Nothing if it is not there, or was dressed on another body than `body`
   // (after more iterations there is another). Throws InputError if it is

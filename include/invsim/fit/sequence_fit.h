@@ -21,7 +21,9 @@
 //
 // With a checkpoint folder each stage leaves its result there, and every
 // evaluation of stage 3 (remembered_term.h). Called again with the same folder
-// the fit goes on where it was, and ends in the same result.
+// the fit goes on where it was, and ends in the same result; from other inputs
+// it refuses to. Stages are left out when the time limit is reached, but what
+// was not found in full is not kept there.
 
 #include <functional>
 #include <map>
@@ -33,6 +35,7 @@
 #include "invsim/fit/body_init.h"
 #include "invsim/fit/cloth_points_term.h"
 #include "invsim/fit/dressing.h"
+#include "invsim/fit/input_digests.h"
 #include "invsim/fit/optimizer.h"
 #include "invsim/fit/uncertainty.h"
 #include "invsim/sim/relaxation.h"
@@ -76,6 +79,9 @@ struct FitScene {
   bool optimize = true;
   std::uint64_t seed = 0;
   std::string checkpoint = "";  // an existing folder; "": none
+  // What the simulator and the options are made from, of which a checkpoint
+  // could not know otherwise.
+  InputDigests more_inputs = {};
 };
 
 // An iteration of stage 3 and the point kept after it.
@@ -121,7 +127,8 @@ struct FitResult {
   ClothPointsCosts costs;  // at `body`
   ClothPointsStats stats;  // of stages 3 and 4
   std::optional<Uncertainty> uncertainty;
-  int recalled = 0;  // answers found in the checkpoint
+  int recalled = 0;        // answers found in the checkpoint
+  bool resumable = false;  // the checkpoint has something to go on from
   FitSeconds seconds;
 
   bool usable() const {
@@ -137,8 +144,13 @@ struct FitResult {
   int iterations() const;
 };
 
+// What FitSequence does first: throws InputError if `scene.checkpoint` was
+// begun from other inputs, and notes them if it is new.
+void CheckInputs(const FitScene& scene);
+
 // Throws InputError for points that cannot be a person's, a start that is not
-// finite or not of as many frames, or a checkpoint that cannot be written.
+// finite or not of as many frames, or a checkpoint that cannot be written or
+// is of other inputs.
 FitResult FitSequence(const FitScene& scene,
                       const FitOptions& options,
                       const FitObserver& observer);

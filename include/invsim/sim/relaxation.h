@@ -30,6 +30,7 @@
 #include <span>
 #include <string>
 
+#include "invsim/base/interrupt.h"
 #include "invsim/base/options.h"
 #include "invsim/body/body_model.h"
 #include "invsim/cloth/garment.h"
@@ -90,11 +91,13 @@ BodyParameters DressingBody(const BodyParameters& start,
                             const BodyParameters& goal,
                             double s);
 
-// Ends early if it fails or InterruptRequested().
+// Ends early if it fails, or, as kInterrupted, if InterruptRequested() or
+// `stop` says so.
 RelaxationResult Relax(const RelaxationScene& scene,
                        const RelaxationOptions& options,
                        Simulator* simulator,
-                       const RelaxationCallback& on_frame = {});
+                       const RelaxationCallback& on_frame = {},
+                       const StopPredicate& stop = {});
 
 }  // namespace invsim
 

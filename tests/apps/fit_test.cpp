@@ -2,99 +2,23 @@
 
 // invsim init and invsim fit as a user runs them.
 
-#include <gmock/gmock.h>
-
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
+#include <regex>
+#include <utility>
+#include <vector>
 
-#include "fit/dressed_mannequin.h"
+#include "../../apps/exit_code.h"
+#include "fit_command.h"
 #include "invsim/base/random.h"
-#include "invsim/base/stopwatch.h"
-#include "invsim/body/motion.h"
-#include "invsim/io/ply.h"
-#include "run_command.h"
 
 namespace invsim {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
-using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-constexpr int kInput = 3, kUsage = 2, kStoppedEarly = 4, kInterrupted = 130;
-constexpr int kPoints = 500;
-
-void WritePoints(const fs::path& path, const Points& points) {
-  PlyMesh mesh;
-  mesh.vertices = points;
-  WritePly(path.string(), mesh);
-}
-
-// A directory with the points of a mannequin whose trunk is clothed.
-class FitCommandTest : public ::testing::Test {
- protected:
-  FitCommandTest() : directory_(TestDirectory()), person_(0.015) {
-    fs::create_directories(points());
-    for (int t = 0; t < 4; ++t)
-      WriteFrame(t, person_.Scan(Body(t), kPoints, t));
-  }
-  ~FitCommandTest() override { fs::remove_all(directory_); }
-
-  fs::path points() const { return directory_ / "points"; }
-  fs::path out() const { return directory_ / "run"; }
-  fs::path Frame(int t) const {
-    char name[32];
-    std::snprintf(name, sizeof(name), "%06d.ply", t);
-    return points() / name;
-  }
-  void WriteFrame(int t, const Points& cloud) { WritePoints(Frame(t), cloud); }
-
-  static BodyParameters Body(int t) {
-    BodyParameters p;
-    p.pose[3 * 16 + 2] = -0.9 + 0.02 * t;  // arms down
-    p.pose[3 * 17 + 2] = 0.9;
-    p.translation = Vector3d(0.01 * t, 0.02, 0);
-    return p;
-  }
-
-  // As small as it can be.
-  std::string Arguments(const std::string& more = "") const {
-    return "--points '" + points().string() +
-           "' --body mannequin --garment tank_top --out '" + out().string() +
-           "' -q --set input.edge=0.06 --set step.substeps=1"
-           " --set init.headings=2 --set init.anchors=1"
-           " --set init.iterations=3 --set relaxation.settle_seconds=0.1"
-           " --set relaxation.move_seconds=0.3"
-           " --set relaxation.hold_seconds=0.1 --set lm.iterations=2"
-           " --set fit.dressings=1"
-           // Of two steps none is to be refused as too long.
-           " --set lm.radius=1 " +
-           more;
-  }
-  void ExpectRefused(const std::string& command,
-                     int code,
-                     const ::testing::Matcher<std::string>& message) {
-    const CommandResult result = RunCommand(command);
-    EXPECT_EQ(result.exit_code, code) << result.err;
-    EXPECT_THAT(result.err, message);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1)
-        << result.err;
-    EXPECT_EQ(result.out, "");
-  }
-  nlohmann::json Report() const {
-    return nlohmann::json::parse(
-        ReadFileBytes((out() / "report.json").string()));
-  }
-
-  fs::path directory_;
-  DressedMannequin person_;
-};
 
 TEST_F(FitCommandTest, PresetStandsBelowWhatIsSetByHand) {
   ExpectRefused("fit " + Arguments("--preset quick"),
@@ -192,16 +116,55 @@ TEST_F(FitCommandTest, ATimeLimitEndsUsable) {
   EXPECT_TRUE(fs::is_regular_file(out() / "cloth/000000.ply"));
 }
 
-TEST_F(FitCommandTest, AnInterruptLeavesACheckpoint) {
-  const CommandResult result =
-      RunCommand("fit " +
-                 Arguments("--set lm.iterations=200 "
-                           "--set lm.function_tolerance=0 "
-                           "--set lm.refused_steps=0") +
-                 " & pid=$!; sleep 1; kill -INT $pid; wait $pid");
-  EXPECT_EQ(result.exit_code, kInterrupted) << result.err;
-  EXPECT_TRUE(fs::is_directory(out() / "checkpoint"));
-  EXPECT_FALSE(fs::exists(out() / "report.json"));
+TEST_F(FitCommandTest, ItsExitCodeSaysHowItEnded) {
+  const std::vector<std::pair<Termination, int>> codes = {
+      {Termination::kConverged, 0},
+      {Termination::kIterationLimit, 4},
+      {Termination::kTimeLimit, 4},
+      {Termination::kGivenUp, 4},
+      {Termination::kFailed, 5},
+      {Termination::kStalled, 6},
+      {Termination::kInterrupted, 130}};
+  for (const auto& [termination, code] : codes)
+    EXPECT_EQ(static_cast<int>(CodeOf(termination)), code) << Name(termination);
+
+  CommandResult result = RunCommand(
+      "fit " + Arguments("--frames 1 --set lm.function_tolerance=0.99"));
+  EXPECT_EQ(result.exit_code, kOk) << result.err;
+  EXPECT_EQ(Report()["status"], "converged");
+
+  result = RunCommand(
+      "fit --force " +
+      Arguments("--frames 1 "
+                "--set 'effects.gravity.acceleration=[0,-1e300,0]'"));
+  EXPECT_EQ(result.exit_code, kFailed) << result.err;
+  EXPECT_EQ(Report()["status"], "failed");
+  EXPECT_FALSE(Report()["usable"]);
+}
+
+TEST_F(FitCommandTest, TellsHowFarItIs) {
+  std::string arguments = Arguments("--frames 1");
+  arguments.erase(arguments.find(" -q"), 3);
+  const CommandResult result = RunCommand("fit " + arguments);
+  EXPECT_EQ(result.exit_code, kStoppedEarly) << result.err;
+  // Lines in this order; the start counts as an iteration.
+  size_t at = 0;
+  for (const std::string line :
+       {"initialisation 1/[0-9]+  eta [0-9]+:[0-9]+  searched frame 0",
+        "initialisation 2/[0-9]+  eta [0-9]+:[0-9]+  all frames, iteration 0",
+        "dressing 1/[0-9]+  eta [0-9]+:[0-9]+  settle",
+        "iterations 1/3  eta [0-9]+:[0-9]+  cost [0-9.e+]+",
+        "iterations 2/3  eta [0-9]+:[0-9]+  cost [0-9.e+]+",
+        "iterations 3/3  in [0-9]+:[0-9]+  cost [0-9.e+]+",
+        "final simulation 1/1  in [0-9]+:[0-9]+"}) {
+    std::smatch match;
+    const std::string rest = result.err.substr(at);
+    ASSERT_TRUE(std::regex_search(rest, match, std::regex("\n" + line)) ||
+                (at == 0 && std::regex_search(rest, match, std::regex(line))))
+        << line << " is not in\n"
+        << rest;
+    at += match.position() + match.length();
+  }
 }
 
 TEST_F(FitCommandTest, SaysWhatIsMissing) {
@@ -327,112 +290,6 @@ TEST_F(FitCommandTest, RefusesAnUnwritableFolder) {
                     (directory_ / "file" / "run").string() + "'",
                 kInput,
                 HasSubstr("cannot be used for the results"));
-}
-
-// Body and cloth of a run.
-struct Outcome {
-  explicit Outcome(const fs::path& run)
-      : body(ReadMotion((run / "body.npz").string())),
-        cloth(ReadPly((run / "cloth/000001.ply").string()).vertices) {}
-  Motion body;
-  Points cloth;
-};
-
-// To the last bit.
-void ExpectSame(const Outcome& a, const Outcome& b, const std::string& what) {
-  for (int t = 0; t < a.body.num_frames(); ++t) {
-    const BodyParameters p = a.body.Frame(t), q = b.body.Frame(t);
-    EXPECT_EQ(p.shape, q.shape) << what;
-    EXPECT_EQ(p.pose, q.pose) << what;
-    EXPECT_EQ(p.translation, q.translation) << what;
-  }
-  EXPECT_EQ(a.cloth, b.cloth) << what;
-}
-
-// The same numbers in every run, on one thread and on two.
-TEST_F(FitCommandTest, RepeatsItself) {
-  const auto run = [&](const std::string& threads) {
-    EXPECT_EQ(
-        RunCommand("fit --force " + Arguments("--frames 2 --set fit.dressings=2"
-                                              " --threads " +
-                                              threads))
-            .exit_code,
-        kStoppedEarly);
-    // All of the report but times and the threads asked for.
-    std::map<std::string, nlohmann::json> numbers;
-    const nlohmann::json report = Report().flatten();
-    for (const auto& [key, value] : report.items())
-      if (key.find("seconds") == std::string::npos && key != "/inputs/threads")
-        numbers[key] = value;
-    EXPECT_GT(numbers.size(), 50u);
-    return std::make_pair(Outcome(out()), numbers);
-  };
-  const auto [one, report] = run("1");
-  for (const std::string threads : {"1", "2", "2"}) {
-    const auto [again, report_again] = run(threads);
-    ExpectSame(one, again, threads + " threads");
-    for (const auto& [key, value] : report)
-      EXPECT_EQ(value, report_again.at(key)) << key << ", " << threads;
-  }
-}
-
-// Whenever a fit is killed, what it left is enough to end alike.
-// INVSIM_KILLS=50 for more kills than the suite has time for.
-TEST_F(FitCommandTest, GoesOnAfterBeingKilled) {
-  const char* asked = std::getenv("INVSIM_KILLS");
-  const int kills = asked ? std::atoi(asked) : 4;
-  // Also while it is dressed, and optimised, for the second time.
-  const std::string arguments = Arguments("--frames 2 --set fit.dressings=2");
-  const Stopwatch watch;
-  ASSERT_EQ(RunCommand("fit " + arguments).exit_code, kStoppedEarly);
-  const double whole = watch.seconds();
-  const Outcome expected(out());
-  Random random(11);
-  int resumed = 0;
-  for (int k = 0; k < kills; ++k) {
-    fs::remove_all(out());
-    const std::string at = std::to_string(random.Uniform(0.1, 0.95) * whole);
-    const std::string line = "timeout -s KILL " + at +
-                             " '" INVSIM_COMMAND "' fit " + arguments +
-                             " >/dev/null 2>&1";
-    static_cast<void>(std::system(line.c_str()));
-    CommandResult result =
-        RunCommand("fit --resume -q --out '" + out().string() + "'");
-    if (result.exit_code == kUsage) {  // killed before there was anything
-      EXPECT_THAT(result.err, HasSubstr("no run to resume"));
-      result = RunCommand("fit --force " + arguments);
-    } else {
-      ++resumed;
-    }
-    ASSERT_EQ(result.exit_code, kStoppedEarly)
-        << "killed at " << at << " s: " << result.err;
-    ExpectSame(Outcome(out()), expected, "killed at " + at + " s");
-  }
-  EXPECT_GT(resumed, 0);
-}
-
-// Files that may not grow stand for a full disk.
-TEST_F(FitCommandTest, KeepsTheCheckpointWhenTheDiskIsFull) {
-  const std::string arguments = Arguments("--frames 2");
-  ASSERT_EQ(RunCommand("fit " + arguments).exit_code, kStoppedEarly);
-  const Outcome expected(out());
-  fs::remove_all(out());
-  const fs::path log = directory_ / "log";
-  // The checkpoint's files are small, the results larger; ulimit counts
-  // blocks of 512 bytes.
-  const std::string line = "trap '' XFSZ; ulimit -f 48; '" INVSIM_COMMAND
-                           "' fit " +
-                           arguments + " >/dev/null 2>'" + log.string() + "'";
-  const int status = std::system(line.c_str());
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), kInput);
-  const std::string message = ReadFileBytes(log.string());
-  EXPECT_THAT(message, HasSubstr(out().string()));
-  EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
-  const CommandResult resumed =
-      RunCommand("fit --resume -q --out '" + out().string() + "'");
-  EXPECT_EQ(resumed.exit_code, kStoppedEarly) << resumed.err;
-  ExpectSame(Outcome(out()), expected, "disk full");
 }
 
 }  // namespace

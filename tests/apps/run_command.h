@@ -32,13 +32,13 @@ inline std::filesystem::path TestDirectory() {
   return directory;
 }
 
-// `arguments` as for a shell.
-inline CommandResult RunCommand(const std::string& arguments) {
+// A line for a shell, with what it prints.
+inline CommandResult RunShell(const std::string& commands) {
   const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
   const std::string stem = ::testing::TempDir() + "invsim_" +
                            info->test_suite_name() + "_" + info->name();
-  const std::string line = std::string("'" INVSIM_COMMAND "' ") + arguments +
-                           " >'" + stem + ".out' 2>'" + stem + ".err'";
+  const std::string line =
+      "{ " + commands + "; } >'" + stem + ".out' 2>'" + stem + ".err'";
   const int status = std::system(line.c_str());
   CommandResult result;
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
@@ -48,6 +48,22 @@ inline CommandResult RunCommand(const std::string& arguments) {
     std::filesystem::remove(stem + suffix);
   }
   return result;
+}
+
+// `arguments` as for a shell.
+inline CommandResult RunCommand(const std::string& arguments) {
+  return RunShell("'" INVSIM_COMMAND "' " + arguments);
+}
+
+// Sends `signal` as soon as the shell finds `when` to be true, or after half a
+// minute.
+inline CommandResult RunAndSignal(const std::string& arguments,
+                                  const std::string& when,
+                                  const std::string& signal) {
+  return RunShell("'" INVSIM_COMMAND "' " + arguments +
+                  " & pid=$!; n=0; while [ $n -lt 1500 ] && ! " + when +
+                  "; do sleep 0.02; n=$((n+1)); done; kill -" + signal +
+                  " $pid; wait $pid");
 }
 
 }  // namespace invsim

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "invsim/body/motion.h"
 #include "invsim/io/npz.h"
@@ -255,6 +257,63 @@ TEST_F(SimulateTest, RefusesAMotionOfWrongShapeOrTooShort) {
   ExpectRefused(motion(5, 5, std::nan("")), 3, Path("m.npz"));
   ExpectRefused(
       motion(5, 5, 0) + " --set input.first_frame=9", 2, "only frames 0 to 4");
+}
+
+TEST_F(SimulateTest, AnInterruptKeepsTheFramesThereAre) {
+  const std::string frame = Path("run/cloth/000002.ply");
+  const CommandResult result = RunAndSignal(
+      "simulate -q --json --set input.body=cube --set "
+      "input.garment=sheet --motion turn --substeps 20 --out " +
+          Path("run"),
+      "[ -e '" + frame + "' ]",
+      "INT");
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  const auto json =
+      nlohmann::json::parse(ReadFileBytes(Path("run/report.json")));
+  EXPECT_EQ(json["status"], "interrupted");
+  const int done = json["counts"]["frames_done"];
+  EXPECT_GE(done, 3);
+  EXPECT_LT(done, json["counts"]["frames_wanted"]);
+  char last[32];
+  std::snprintf(last, sizeof(last), "run/cloth/%06d.ply", done - 1);
+  EXPECT_TRUE(ReadPly(Path(last)).vertices.allFinite());
+}
+
+// Two sheets of 576 vertices each, nearer to each other than layers may be.
+std::string TwoSheets() {
+  constexpr int kSide = 24;
+  std::ostringstream obj;
+  for (const double height : {0.0, 0.001})
+    for (int i = 0; i < kSide * kSide; ++i)
+      obj << "v " << 0.02 * (i % kSide - 11.5) << " " << 0.16 + height << " "
+          << -0.02 * (i / kSide - 11.5) << "\n";
+  for (int layer = 0; layer < 2; ++layer)
+    for (int i = 0; i < kSide * (kSide - 1); ++i) {
+      if (i % kSide == kSide - 1) continue;
+      const int a = 1 + layer * kSide * kSide + i;
+      obj << "f " << a << " " << a + 1 << " " << a + 1 + kSide << "\nf " << a
+          << " " << a + 1 + kSide << " " << a + kSide << "\n";
+    }
+  return obj.str();
+}
+
+TEST_F(SimulateTest, SelfContactIsTheSameOnOneThreadAndOnTwo) {
+  WriteFileBytes(Path("sheets.obj"), TwoSheets());
+  const auto cloth = [&](const std::string& threads) {
+    const CommandResult result = RunCommand(
+        "simulate -q --json --force --set input.body=cube --motion turn "
+        "--frames 2 --set relaxation.settle_seconds=0.03 --set "
+        "relaxation.move_seconds=0.03 --set relaxation.hold_seconds=0.03 "
+        "--set 'scene.effects=[\"inertia\",\"gravity\",\"membrane\","
+        "\"self_contact\"]' --garment " +
+        Path("sheets.obj") + " --out " + Path("run") + " --threads " + threads);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_GT(json["total"]["cloth_contacts_max"], 1000);
+    return ReadFileBytes(Path("run/cloth.pc2"));
+  };
+  const std::string one = cloth("1");
+  EXPECT_EQ(cloth("2"), one);
 }
 
 TEST_F(SimulateTest, CountsStepsThatMissTheirTolerance) {

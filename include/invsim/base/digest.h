@@ -2,9 +2,10 @@
 #ifndef INVSIM_BASE_DIGEST_H_
 #define INVSIM_BASE_DIGEST_H_
 
-// A number of 64 bits that stands for data: other data have another one but by
-// a chance of 2^-64, unless somebody looked for them (it is FNV-1a by words,
-// no cryptography). It is the same on every machine of the same byte order.
+// A number of 64 bits that stands for data: other data of the same types have
+// another one but by a chance of 2^-64, unless somebody looked for them (it is
+// FNV-1a by words, no cryptography). Types are not told apart: 0.0, 0 and an
+// empty text are alike.
 
 #include <Eigen/Core>
 #include <cstdint>

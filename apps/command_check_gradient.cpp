@@ -244,6 +244,7 @@ GradientCheck CheckGradientCommand::Check(const SimulationScene& scene,
 ExitCode CheckGradientCommand::Run(const CommandContext& context) {
   const InterruptGuard interrupt;
   input_.motion.frames = check_.frame + 1;
+  input_.motion.up_is_said = context.options->IsSet("input.motion_up");
   const SimulationScene scene = LoadSimulation(input_, scene_.material);
   if (scene.motion.num_frames() <= check_.frame)
     throw UsageError("check.frame = " + std::to_string(check_.frame) + ": " +

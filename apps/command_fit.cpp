@@ -198,6 +198,7 @@ FitReport FitCommand::StartReport(const FitData& data) const {
     report.most_points = std::max(report.most_points, n);
   }
   report.points_dropped = data.dropped;
+  report.points_filtered = data.filtered;
   report.body_vertices = data.body.num_vertices();
   report.cloth_vertices = data.garment.num_vertices();
   report.cloth_faces = data.garment.num_faces();

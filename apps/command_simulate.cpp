@@ -138,6 +138,7 @@ void SimulateCommand::Simulate(const SimulationScene& scene,
 ExitCode SimulateCommand::Run(const CommandContext& context) {
   const Stopwatch watch;
   const InterruptGuard interrupt;
+  input_.motion.up_is_said = context.options->IsSet("input.motion_up");
   const SimulationScene scene = LoadSimulation(input_, scene_.material);
   UseMaterialFriction(*context.options, scene.material, &scene_);
   DecideSceneEffects(

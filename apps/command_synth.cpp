@@ -201,6 +201,7 @@ ExitCode SynthCommand::Run(const CommandContext& context) {
     throw UsageError(UnknownName("kind", what_, kinds));
   if (!name_.empty() && what_ == "garment") options_.garment = name_;
   if (!name_.empty() && what_ == "motion") options_.motion.name = name_;
+  options_.motion.up_is_said = context.options->IsSet("synth.motion_up");
   if (what_ == "sequence") return WriteSequence(context);
   const std::string path = context.out.empty() ? DefaultFile() : context.out;
   if (what_ == kGrid)

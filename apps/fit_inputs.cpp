@@ -13,8 +13,9 @@
 namespace invsim {
 namespace {
 
-// Fewer cannot be a person.
+// Fewer cannot be a person, nor can more metres.
 constexpr int kFewestPoints = 50;
+constexpr double kLargestPerson = 5;
 
 void Need(const std::string& value, const char* flag, const char* what) {
   if (value.empty())
@@ -22,13 +23,17 @@ void Need(const std::string& value, const char* flag, const char* what) {
 }
 
 // The unit, and the axis that is up, must be what the points look like unless
-// the user said so in so many words.
+// the user said so in so many words. Of the frames after the first only the
+// size is looked at: people bend, lie down and turn cartwheels.
 void CheckInputFrame(const FitInput& input,
                      const OptionTable& options,
                      const std::string& file,
-                     const Points& raw) {
-  const InputFrameGuess guess = GuessInputFrame(raw);
-  const Vector3d size = raw.rowwise().maxCoeff() - raw.rowwise().minCoeff();
+                     const Points& raw,
+                     bool first) {
+  const Points person = WithoutStrays(raw);
+  const InputFrameGuess guess = GuessInputFrame(person);
+  const Vector3d size =
+      person.rowwise().maxCoeff() - person.rowwise().minCoeff();
   std::ostringstream text;
   text << file << ": the points span " << size.x() << " x " << size.y() << " x "
        << size.z() << " (x, y, z)";
@@ -37,12 +42,48 @@ void CheckInputFrame(const FitInput& input,
          << "; expected metres, or say --units " << Name(guess.frame.unit);
     throw InputError(text.str());
   }
-  if (!options.IsSet("input.up") && guess.frame.up != input.frame.up) {
+  if (MetresPer(input.frame.unit) * size.maxCoeff() > kLargestPerson) {
+    text << ", which is no person in " << Name(input.frame.unit)
+         << "; expected at most " << kLargestPerson << " m";
+    throw InputError(text.str());
+  }
+  if (first && !options.IsSet("input.up") && guess.frame.up != input.frame.up) {
     text << ", so " << Name(guess.frame.up) << " seems to be up; say --up "
          << Name(guess.frame.up) << ", or --up " << Name(input.frame.up)
          << " if that is wrong";
     throw InputError(text.str());
   }
+}
+
+void CheckEnough(const std::string& file,
+                 const Points& filtered,
+                 const Points& raw,
+                 const std::string& option) {
+  if (filtered.cols() >= kFewestPoints) return;
+  throw InputError(file + ": " + option + " leaves " +
+                   std::to_string(filtered.cols()) + " of " +
+                   std::to_string(raw.cols()) + " points, expected at least " +
+                   std::to_string(kFewestPoints));
+}
+
+// The points of one file, inside (metres, y up), outliers and voxels filtered.
+// The frame is judged by what is left of the outliers.
+Points CleanPoints(const FitInput& input,
+                   const OptionTable& options,
+                   const std::string& file,
+                   const Points& raw,
+                   bool first) {
+  PointFilterOptions outliers = input.filter, voxels = input.filter;
+  outliers.voxel = 0;
+  voxels.outlier_neighbours = 0;
+  const Points clean =
+      FilterPoints(outliers, InsideFromInput(input.frame, raw));
+  CheckEnough(file, clean, raw, "input.filter.outlier_neighbours");
+  CheckInputFrame(
+      input, options, file, InputFromInside(input.frame, clean), first);
+  const Points thinned = FilterPoints(voxels, clean);
+  CheckEnough(file, thinned, raw, "input.filter.voxel");
+  return thinned;
 }
 
 Points Subsample(const Points& points, int count, Random* random) {
@@ -83,11 +124,11 @@ void LoadClouds(const FitInput& input,
                        (raw.cols() == 1 ? " point" : " points") +
                        ", expected a person's, at least " +
                        std::to_string(kFewestPoints));
-    if (t == 0) CheckInputFrame(input, *context.options, files[t], raw);
-    const Points inside = InsideFromInput(input.frame, raw);
+    const Points clean =
+        CleanPoints(input, *context.options, files[t], raw, t == 0);
+    data->filtered += static_cast<int>(raw.cols() - clean.cols());
     Random random(context.run.seed, static_cast<std::uint64_t>(t));
-    data->clouds.push_back(Subsample(
-        FilterPoints(input.filter, inside), input.max_points, &random));
+    data->clouds.push_back(Subsample(clean, input.max_points, &random));
   }
   if (files.size() < 3)
     LOG(WARNING) << files.size() << (files.size() == 1 ? " frame" : " frames")
@@ -166,8 +207,13 @@ FitData LoadFitData(const FitInput& input,
   BodyModel body = LoadBody(input.body);
   Garment garment = LoadGarment(input.garment, body, input.authored);
   CheckGarmentFits(garment, body, ShapeVector::Zero(), input.garment);
-  FitData data{
-      {}, 0, std::move(body), std::move(garment), FindMaterial(material), {}};
+  FitData data{{},
+               0,
+               0,
+               std::move(body),
+               std::move(garment),
+               FindMaterial(material),
+               {}};
   LoadClouds(input, context, &data);
   data.start = LoadStart(input, static_cast<int>(data.clouds.size()));
   return data;

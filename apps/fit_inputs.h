@@ -40,7 +40,8 @@ std::vector<std::string> PathsOf(const FitInput& input);
 
 struct FitData {
   std::vector<Points> clouds;  // metres, y up
-  int dropped = 0;             // points that were not finite
+  int dropped = 0;             // points that were not finite, all frames
+  int filtered = 0;            // points that the filters took, all frames
   BodyModel body;
   Garment garment;
   Material material;

@@ -2,11 +2,16 @@
 #include "inputs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 #include "invsim/base/error.h"
+#include "invsim/base/logging.h"
 #include "invsim/base/names.h"
 #include "invsim/body/mannequin.h"
 #include "invsim/body/motion_library.h"
+#include "invsim/body/rotation.h"
+#include "invsim/io/input_frame.h"
 #include "invsim/study/cube_toy.h"
 
 namespace invsim {
@@ -40,8 +45,67 @@ Motion Embedded(const MotionInput& input) {
   return MakeMotion(input.name, input.first + frames, rate);
 }
 
+// The model stands in the T-pose, which tells which way is up and how long a
+// metre is: from the feet to the head it is y, and a person's height.
+void CheckBodyFrame(const BodyModel& body, const std::string& file) {
+  constexpr int kLeftFoot = 10, kRightFoot = 11, kHead = 15;
+  const Points joints = body.Joints({});
+  const Vector3d up = joints.col(kHead) -
+                      0.5 * (joints.col(kLeftFoot) + joints.col(kRightFoot));
+  std::ostringstream text;
+  text << file << ": in the T-pose the head is (" << up.x() << ", " << up.y()
+       << ", " << up.z() << ") from the feet";
+  if (up.z() > 2 * std::abs(up.y())) {
+    text << ", so z seems to be up; expected y: turn v_template, shapedirs and "
+            "posedirs, (x, y, z) to (x, z, -y)";
+    throw InputError(text.str());
+  }
+  if (-up.y() > 2 * std::abs(up.z())) {
+    text << ", upside down; expected y up";
+    throw InputError(text.str());
+  }
+  const LengthUnit unit = GuessInputFrame(body.data().v_template).frame.unit;
+  if (unit != LengthUnit::kMetre) {
+    text << ", so the unit seems to be " << Name(unit)
+         << "; expected metres: multiply v_template, shapedirs and posedirs by "
+         << MetresPer(unit);
+    throw InputError(text.str());
+  }
+}
+
+// Largest minus least of any number over the frames.
+double Range(const std::vector<PoseVector>& poses) {
+  PoseVector low = poses[0], high = poses[0];
+  for (const PoseVector& pose : poses) {
+    low = low.cwiseMin(pose);
+    high = high.cwiseMax(pose);
+  }
+  return (high - low).maxCoeff();
+}
+
+// Archives such as AMASS have z up: there the body's own up axis points along
+// z throughout. One who lies down, or turns a cartwheel, does not lie in this
+// one direction all the time, or moves little.
+void CheckMotionFrame(const MotionInput& input, const Motion& motion) {
+  constexpr double kNear = 0.7;    // cosine of 45 degrees
+  constexpr double kMost = 0.9;    // of the frames
+  constexpr double kLittle = 0.3;  // rad; asleep
+  int along_z = 0;
+  for (const PoseVector& pose : motion.poses)
+    along_z += (Exp(pose.head<3>()) * Vector3d::UnitY()).z() > kNear;
+  if (along_z < kMost * motion.num_frames()) return;
+  const std::string what =
+      input.name + ": the body's up axis is along z in " +
+      std::to_string(along_z) + " of " + std::to_string(motion.num_frames()) +
+      " frames, so z seems to be up; say motion_up=z, or motion_up=y if the "
+      "person lies";
+  if (Range(motion.poses) > kLittle) throw InputError(what);
+  LOG(WARNING) << what;
+}
+
 Motion FromFile(const MotionInput& input, const BodyModel& body) {
   Motion motion = ReadMotion(input.name);
+  if (!input.up_is_said) CheckMotionFrame(input, motion);
   if (input.up != UpAxis::kY) TurnWorld(YUpFrom(input.up), body, &motion);
   if (input.frames_per_second > 0 &&
       input.frames_per_second != motion.frame_rate)
@@ -87,7 +151,9 @@ BodyModel LoadBody(const std::string& name) {
   if (name == kCube) return CubeBody();
   if (!IsPath(name))
     ThrowUnknown("body", name, {kMannequin, kCube}, "an SMPL-layout .npz");
-  return ReadBodyModel(name);
+  BodyModel body = ReadBodyModel(name);
+  CheckBodyFrame(body, name);
+  return body;
 }
 
 TPoseBody TPoseOf(const BodyModel& body) {

@@ -10,6 +10,7 @@
 #include "invsim/body/rotation.h"
 #include "invsim/fit/coverage.h"
 #include "invsim/geometry/mesh.h"
+#include "invsim/io/point_filters.h"
 #include "limb_starts.h"
 
 namespace invsim {
@@ -100,8 +101,9 @@ void CheckExtent(const std::vector<Points>& clouds) {
   for (size_t t = 0; t < clouds.size(); ++t) {
     if (clouds[t].cols() == 0)
       throw InputError("points of frame " + std::to_string(t) + ": none");
+    const Points person = WithoutStrays(clouds[t]);
     const Vector3d size =
-        clouds[t].rowwise().maxCoeff() - clouds[t].rowwise().minCoeff();
+        person.rowwise().maxCoeff() - person.rowwise().minCoeff();
     const double extent = size.maxCoeff();
     if (extent >= kSmallestExtent && extent <= kLargestExtent) continue;
     throw InputError("points of frame " + std::to_string(t) + " span " +

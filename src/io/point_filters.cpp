@@ -5,11 +5,15 @@
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/filters/voxel_grid.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "invsim/base/error.h"
 
@@ -96,7 +100,34 @@ Points MeansOfVoxels(double voxel, const Points& points) {
   return FromBlob(means, centroid);
 }
 
+// The values of rank 1 % and 99 % of a row.
+std::pair<double, double> Middle(const Points& points, int axis) {
+  std::vector<double> row(points.row(axis).begin(), points.row(axis).end());
+  const auto at = [&](double share) {
+    const auto nth =
+        row.begin() + std::lround(share * static_cast<double>(row.size() - 1));
+    std::nth_element(row.begin(), nth, row.end());
+    return *nth;
+  };
+  const double low = at(0.01);
+  return {low, at(0.99)};
+}
+
 }  // namespace
+
+Points WithoutStrays(const Points& points) {
+  if (points.cols() == 0) return points;
+  Vector3d low, high;
+  for (int c = 0; c < 3; ++c) std::tie(low[c], high[c]) = Middle(points, c);
+  const double margin = (high - low).maxCoeff();
+  std::vector<int> kept;
+  for (int i = 0; i < points.cols(); ++i) {
+    const Eigen::Array3d p = points.col(i);
+    if ((p >= low.array() - margin).all() && (p <= high.array() + margin).all())
+      kept.push_back(i);
+  }
+  return points(Eigen::all, kept);
+}
 
 void Describe(OptionTable* table, PointFilterOptions* o) {
   table->Add("voxel",

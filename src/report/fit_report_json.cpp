@@ -33,6 +33,7 @@ Json InputsJson(const FitReport& r) {
   json["points_per_frame_min"] = r.fewest_points;
   json["points_per_frame_max"] = r.most_points;
   json["points_dropped"] = r.points_dropped;
+  json["points_filtered"] = r.points_filtered;
   json["body_vertices"] = r.body_vertices;
   json["cloth_vertices"] = r.cloth_vertices;
   json["cloth_faces"] = r.cloth_faces;

@@ -48,6 +48,7 @@ void InputText(const FitReport& r, std::ostream* out) {
                std::to_string(r.fewest_points) + " to " +
                std::to_string(r.most_points) + " points used of each")
       .Add("points dropped", std::to_string(r.points_dropped) + " (not finite)")
+      .Add("points filtered", std::to_string(r.points_filtered))
       .Add("body",
            r.body + ", " + std::to_string(r.body_vertices) + " vertices")
       .Add("garment",

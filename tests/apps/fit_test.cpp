@@ -11,6 +11,10 @@
 #include "../../apps/exit_code.h"
 #include "fit_command.h"
 #include "invsim/base/random.h"
+#include "invsim/base/stopwatch.h"
+#include "invsim/body/motion.h"
+#include "invsim/io/obj.h"
+#include "invsim/io/ply.h"
 
 namespace invsim {
 namespace {
@@ -181,7 +185,10 @@ TEST_F(FitCommandTest, SaysWhatIsMissing) {
 
 TEST_F(FitCommandTest, RefusesAnEmptyFrame) {
   WriteFrame(1, Points(3, 0));
-  ExpectRefused("fit " + Arguments(), kInput, HasSubstr(Frame(1).string()));
+  ExpectRefused(
+      "fit " + Arguments(),
+      kInput,
+      AllOf(HasSubstr(Frame(1).string()), HasSubstr("expected at least one")));
   EXPECT_FALSE(fs::exists(out()));
 }
 
@@ -197,10 +204,14 @@ TEST_F(FitCommandTest, RefusesPointsThatAreNotFiniteUnlessToldTo) {
   Points cloud = person_.Scan(Body(1), kPoints, 1);
   cloud(1, 7) = NAN;
   WriteFrame(1, cloud);
-  ExpectRefused("fit " + Arguments(), kInput, HasSubstr(Frame(1).string()));
+  ExpectRefused("fit " + Arguments(),
+                kInput,
+                AllOf(HasSubstr(Frame(1).string()),
+                      HasSubstr("1 of 500 points are not finite, the first is "
+                                "point 7")));
   const CommandResult result = RunCommand(
-      "init " + Arguments("--frames 2 --set input.drop_non_finite=true"));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+      "fit " + Arguments("--frames 2 --set input.drop_non_finite=true"));
+  EXPECT_EQ(result.exit_code, kStoppedEarly) << result.err;
   EXPECT_EQ(Report()["inputs"]["points_dropped"], 1);
 }
 
@@ -239,8 +250,9 @@ TEST_F(FitCommandTest, RefusesAGapInTheSequence) {
 
 TEST_F(FitCommandTest, TakesFramesOfDifferentCounts) {
   WriteFrame(1, person_.Scan(Body(1), 2 * kPoints, 1));
-  const CommandResult result = RunCommand("init " + Arguments("--frames 2"));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunCommand("fit " + Arguments("--frames 2"));
+  EXPECT_EQ(result.exit_code, kStoppedEarly) << result.err;
+  EXPECT_THAT(result.out, StartsWith("Iteration limit"));
   EXPECT_EQ(Report()["inputs"]["points_per_frame_min"], kPoints);
   EXPECT_EQ(Report()["inputs"]["points_per_frame_max"], 2 * kPoints);
 }
@@ -253,8 +265,9 @@ TEST_F(FitCommandTest, EndsInOrderWithHalfTheBodyMissing) {
     if (cloud(1, i) > cloud.row(1).mean()) upper.push_back(i);
   WriteFrame(0, cloud(Eigen::all, upper));
   const CommandResult result =
-      RunCommand("init " + Arguments("--frames 1 --up y --units m"));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+      RunCommand("fit " + Arguments("--frames 1 --up y --units m"));
+  EXPECT_EQ(result.exit_code, kStoppedEarly) << result.err;
+  EXPECT_TRUE(Report()["usable"]);
   for (const double angle : ReadMotion((out() / "body.npz").string()).poses[0])
     EXPECT_TRUE(std::isfinite(angle));
 }
@@ -265,12 +278,100 @@ TEST_F(FitCommandTest, FindsThePersonAmongHalfOutliers) {
   for (int i = 0; i < cloud.cols(); i += 2)
     for (int c = 0; c < 3; ++c) cloud(c, i) += 0.2 * (2 * random.Uniform() - 1);
   WriteFrame(0, cloud);
-  const CommandResult result = RunCommand("init " + Arguments("--frames 1"));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const CommandResult result = RunCommand("fit " + Arguments("--frames 1"));
+  EXPECT_EQ(result.exit_code, kStoppedEarly) << result.err;
+  EXPECT_TRUE(Report()["usable"]);
   const Motion body = ReadMotion((out() / "body.npz").string());
   const Points found = person_.body().Joints(body.Frame(0));
   EXPECT_LT((found - person_.body().Joints(Body(0))).colwise().norm().mean(),
             0.1);
+}
+
+// Smoothness in time needs three frames; with fewer there is a line about it.
+TEST_F(FitCommandTest, SaysThatOneFrameIsNotSmoothed) {
+  std::string arguments = Arguments("--frames 1");
+  arguments.erase(arguments.find(" -q "), 3);
+  const CommandResult result = RunCommand("fit " + arguments);
+  EXPECT_EQ(result.exit_code, kStoppedEarly) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("1 frame: smoothness in time needs three"));
+}
+
+TEST_F(FitCommandTest, RefusesAGarmentOfTheWrongSize) {
+  const fs::path path = directory_ / "vest.obj";
+  ASSERT_EQ(RunCommand("synth garment --name tank_top --edge 0.06 --out '" +
+                       path.string() + "'")
+                .exit_code,
+            0);
+  const ObjMesh vest = ReadObj(path.string());
+  const auto expect = [&](double scale, const std::string& message) {
+    ObjMesh scaled = vest;
+    scaled.vertices *= scale;
+    WriteObj(path.string(), scaled);
+    ExpectRefused("fit --points '" + points().string() +
+                      "' --body mannequin --garment '" + path.string() + "'",
+                  kInput,
+                  AllOf(HasSubstr(path.string()), HasSubstr(message)));
+  };
+  expect(0.01, "m across, expected 0.02 to 5 m");
+  expect(100, "m across, expected 0.02 to 5 m");
+  expect(0.6, "vertices are inside the body; expected a garment placed around");
+}
+
+// One reflection 20 m away, of 500 points.
+TEST_F(FitCommandTest, AStrayPointIsNoReasonToRefuse) {
+  Points cloud = person_.Scan(Body(0), kPoints, 0);
+  cloud.col(17) = Vector3d(0, 0, 20);
+  WriteFrame(0, cloud);
+  const CommandResult result = RunCommand("init " + Arguments("--frames 1"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Motion body = ReadMotion((out() / "body.npz").string());
+  const Points found = person_.body().Joints(body.Frame(0));
+  EXPECT_LT((found - person_.body().Joints(Body(0))).colwise().norm().mean(),
+            0.1);
+}
+
+TEST_F(FitCommandTest, EveryFrameIsLookedAt) {
+  WriteFrame(2, 100 * person_.Scan(Body(2), kPoints, 2));
+  ExpectRefused("fit " + Arguments(),
+                kInput,
+                AllOf(HasSubstr(Frame(2).string()), HasSubstr("--units cm")));
+  // Nor is it taken because another frame's unit was said, or a start given.
+  Motion start;
+  for (int t = 0; t < 4; ++t) {
+    start.poses.push_back(Body(t).pose);
+    start.translations.push_back(Body(t).translation);
+  }
+  WriteMotion((directory_ / "start.npz").string(), start);
+  ExpectRefused("fit " + Arguments("--units m --start '" +
+                                   (directory_ / "start.npz").string() + "'"),
+                kInput,
+                AllOf(HasSubstr(Frame(2).string()),
+                      HasSubstr("no person in m; expected at most 5 m")));
+}
+
+TEST_F(FitCommandTest, FiltersLeaveAPersonAndSayWhatTheyTook) {
+  const std::string far =
+      " --set input.filter.outlier_neighbours=8 "
+      "--set input.filter.outlier_deviations=3";
+  Points cloud = person_.Scan(Body(0), kPoints, 0);
+  for (int k = 0; k < 25; ++k) cloud.col(20 * k) += Vector3d(k - 12, 9 + k, 4);
+  WriteFrame(0, cloud);
+  ExpectRefused("fit " + Arguments(), kInput, HasSubstr(Frame(0).string()));
+  const CommandResult result =
+      RunCommand("init " + Arguments("--frames 1" + far));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json inputs = Report()["inputs"];
+  EXPECT_GE(inputs["points_filtered"], 20);
+  EXPECT_EQ(inputs["points_filtered"].get<int>() +
+                inputs["points_per_frame_max"].get<int>(),
+            kPoints);
+  EXPECT_THAT(ReadFileBytes((out() / "solver.txt").string()),
+              HasSubstr("points filtered"));
+  ExpectRefused("fit --force " + Arguments("--set input.filter.voxel=10" + far),
+                kInput,
+                AllOf(HasSubstr(Frame(0).string()),
+                      HasSubstr("input.filter.voxel leaves"),
+                      HasSubstr("of 500 points, expected at least 50")));
 }
 
 TEST_F(FitCommandTest, RefusesAGarmentOfAnotherBody) {

@@ -63,7 +63,7 @@ ObjMesh Square() {
   return mesh;
 }
 
-NpzArrays Motion(int frames) {
+NpzArrays MotionFile(int frames) {
   return {{"poses",
            NpyArray::Doubles({frames, 72}, std::vector<double>(72 * frames))},
           {"trans",
@@ -162,7 +162,7 @@ TEST_F(InspectTest, Garment) {
 }
 
 TEST_F(InspectTest, Motion) {
-  WriteNpz(Path("m.npz"), Motion(60));
+  WriteNpz(Path("m.npz"), MotionFile(60));
   auto json = Inspect(Path("m.npz"));
   EXPECT_EQ(json["kind"], "motion");
   EXPECT_EQ(json["facts"]["frames"], 60);
@@ -174,14 +174,14 @@ TEST_F(InspectTest, Motion) {
   // A quarter turn about x: the body's up axis is the world's z.
   std::vector<double> poses(72 * 2);
   poses[0] = poses[72] = M_PI / 2;
-  NpzArrays z_up = Motion(2);
+  NpzArrays z_up = MotionFile(2);
   z_up[0].second = NpyArray::Doubles({2, 72}, poses);
   WriteNpz(Path("m.npz"), z_up);
   json = Inspect(Path("m.npz"));
   EXPECT_EQ(json["facts"]["guessed_up"], "z");
   EXPECT_THAT(json["warnings"], ElementsAre(HasSubstr("z looks like")));
 
-  NpzArrays arrays = Motion(60);
+  NpzArrays arrays = MotionFile(60);
   arrays[1].second = NpyArray::Doubles({59, 3}, std::vector<double>(3 * 59));
   WriteNpz(Path("m.npz"), arrays);
   json = Inspect(Path("m.npz"));
@@ -246,7 +246,7 @@ TEST_F(InspectTest, Material) {
 
 TEST_F(InspectTest, RunFolder) {
   std::filesystem::create_directory(Path("cloth"));
-  WriteNpz(Path("body.npz"), Motion(2));
+  WriteNpz(Path("body.npz"), MotionFile(2));
   PlyMesh ply;
   ply.vertices = Person();
   WritePly(Path("cloth/000000.ply"), ply);

@@ -88,5 +88,20 @@ TEST(PointFiltersTest, DescribesItsOptions) {
   EXPECT_THROW(table.Read(config), UsageError);
 }
 
+TEST(WithoutStrays, KeepsAllButWhatIsFarOutside) {
+  // A person-sized box and, of 500 points, four metres away.
+  Points points = Points::Random(3, 500);
+  points.row(0) *= 0.4;
+  points.row(2) *= 0.2;
+  EXPECT_EQ(WithoutStrays(points), points);
+  for (int k = 0; k < 4; ++k) points.col(100 * k).setConstant(k - 20);
+  const Points rest = WithoutStrays(points);
+  EXPECT_EQ(rest.cols(), 496);
+  EXPECT_LE(rest.cwiseAbs().maxCoeff(), 1);
+  EXPECT_EQ(rest.col(0), points.col(1));
+  EXPECT_EQ(WithoutStrays(Points(3, 0)).cols(), 0);
+  EXPECT_EQ(WithoutStrays(Points::Ones(3, 1)).cols(), 1);
+}
+
 }  // namespace
 }  // namespace invsim

@@ -27,6 +27,7 @@ FitReport FitWithFigures() {
   r.fewest_points = 71;
   r.most_points = 93;
   r.points_dropped = 5;
+  r.points_filtered = 6;
   r.body_vertices = 1234;
   r.cloth_vertices = 567;
   r.cloth_faces = 1011;
@@ -77,6 +78,7 @@ TEST(FitReportJson, HasTheInputsInTheUnitsOfTheirKeys) {
   EXPECT_EQ(json["points_per_frame_min"], 71);
   EXPECT_EQ(json["points_per_frame_max"], 93);
   EXPECT_EQ(json["points_dropped"], 5);
+  EXPECT_EQ(json["points_filtered"], 6);
   EXPECT_EQ(json["body_vertices"], 1234);
   EXPECT_EQ(json["cloth_vertices"], 567);
   EXPECT_EQ(json["cloth_faces"], 1011);

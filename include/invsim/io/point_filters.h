@@ -27,6 +27,11 @@ void Describe(OptionTable* table, PointFilterOptions* options);
 // them.
 Points FilterPoints(const PointFilterOptions& options, const Points& points);
 
+// The points but for strays: those further outside the box of the middle 98 %
+// (along each axis) than that box is long. A person's own are never, a single
+// reflection metres away is; so the extent of the rest is the person's.
+Points WithoutStrays(const Points& points);
+
 }  // namespace invsim
 
 #endif  // INVSIM_IO_POINT_FILTERS_H_

@@ -24,6 +24,7 @@ struct FitReport {
   double frames_per_second = 0;
   int fewest_points = 0, most_points = 0;  // used, per frame
   int points_dropped = 0;                  // not finite, all frames
+  int points_filtered = 0;                 // by input.filter, all frames
   int body_vertices = 0;
   int cloth_vertices = 0, cloth_faces = 0;
   int threads = 0;

@@ -130,9 +130,9 @@ void AddDataCases(std::vector<HardFitCase>* cases) {
   const auto add = [&](const char* name,
                        const char* shows,
                        std::function<HardFit()> make,
-                       bool refused = false) {
+                       const char* refusal = "") {
     cases->push_back(
-        {std::string("data/") + name, shows, std::move(make), refused});
+        {std::string("data/") + name, shows, std::move(make), refusal});
   };
   add(
       "no_frame",
@@ -142,31 +142,35 @@ void AddDataCases(std::vector<HardFitCase>* cases) {
         fit.clouds.clear();
         return fit;
       },
-      true);
+      "points: no frame");
   add(
       "empty_frame",
       "a frame without points",
       [] { return WithSecondFrame(Points(3, 0)); },
-      true);
+      "points of frame 1: none");
   add(
       "one_point",
       "a frame of one point",
       [] { return WithSecondFrame(Points::Ones(3, 1)); },
-      true);
+      "points of frame 1: all 1 within 0 mm; expected a person");
   add(
       "all_equal",
       "400 points in one place",
       [] { return WithSecondFrame(Points::Ones(3, 400)); },
-      true);
-  add("not_a_number", "a coordinate that is not a number", NotANumber, true);
+      "points of frame 1: all 400 within 0 mm; expected a person");
+  add("not_a_number",
+      "a coordinate that is not a number",
+      NotANumber,
+      "points of frame 1: not all finite");
   add("millimetres",
       "metres by name, millimetres by size",
       CloudsInMillimetres,
-      true);
+      "m; expected a person, 0.3 to 5 m (wrong unit?)");
   add("other_garment",
       "a garment that is too small by a third",
       SomeoneElsesGarment,
-      true);
+      "vertices are inside the body; expected a garment placed around the "
+      "T-posed body");
   add(
       "start_too_short",
       "a start of fewer frames than there are",
@@ -176,7 +180,7 @@ void AddDataCases(std::vector<HardFitCase>* cases) {
         fit.start->translations.pop_back();
         return fit;
       },
-      true);
+      "the start has 2 frames, expected one per point cloud, 3");
   add("different_counts", "frames of 400, 100 and 400 points", DifferentCounts);
   add("two_frames", "fewer frames than smoothness in time needs", TwoFrames);
   add("upper_half", "nothing measured below the waist", UpperHalf);

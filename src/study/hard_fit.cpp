@@ -125,13 +125,16 @@ HardFitOutcome RunHardFitCase(const HardFitCase& hard) {
   HardFit fit = hard.make();
   try {
     HardFitOutcome outcome = RunHardFit(std::move(fit));
-    if (hard.refused) outcome.broken.push_back("taken, though bad input");
+    if (!hard.refusal.empty())
+      outcome.broken.push_back("taken, though bad input");
     return outcome;
   } catch (const InputError& error) {
     HardFitOutcome outcome;
     outcome.refused = true;
     outcome.refusal = error.what();
-    if (!hard.refused) outcome.broken.push_back(error.what());
+    if (hard.refusal.empty() ||
+        outcome.refusal.find(hard.refusal) == std::string::npos)
+      outcome.broken.push_back(outcome.refusal);
     if (outcome.refusal.find('\n') != std::string::npos)
       outcome.broken.push_back("refused with more than one line");
     return outcome;

@@ -19,7 +19,10 @@ class HardFitTest : public testing::TestWithParam<HardFitCase> {};
 
 TEST_P(HardFitTest, Holds) {
   const HardFitOutcome outcome = RunHardFitCase(GetParam());
-  EXPECT_EQ(outcome.refused, GetParam().refused) << outcome.refusal;
+  const std::string& refusal = GetParam().refusal;
+  EXPECT_EQ(outcome.refused, !refusal.empty()) << outcome.refusal;
+  EXPECT_NE(outcome.refusal.find(refusal), std::string::npos)
+      << outcome.refusal << "\n expected: " << refusal;
   for (const std::string& broken : outcome.broken)
     ADD_FAILURE() << GetParam().name << ": " << broken;
   if (outcome.refused) return;

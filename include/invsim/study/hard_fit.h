@@ -74,8 +74,9 @@ struct HardFitCase {
   std::string name;   // "data/half_outliers"
   std::string shows;  // one line
   std::function<HardFit()> make;
-  // Bad input: running it throws InputError.
-  bool refused = false;
+  // Bad input: running it throws InputError, with this in its message; empty:
+  // it is no bad input.
+  std::string refusal = "";
 };
 
 // In the order of the gallery: data, optimiser.

@@ -14,6 +14,7 @@
 #include "invsim/base/interrupt.h"
 #include "invsim/base/progress.h"
 #include "invsim/base/stopwatch.h"
+#include "invsim/io/earlier_results.h"
 #include "invsim/report/run_folder.h"
 #include "invsim/report/soak_report.h"
 #include "invsim/study/random_scene.h"
@@ -71,7 +72,11 @@ class SoakCommand : public Command {
 ExitCode SoakCommand::Run(const CommandContext& context) {
   const InterruptGuard interrupt;
   std::optional<RunFolder> folder;
-  if (!context.out.empty()) folder.emplace(context.out, force_);
+  if (!context.out.empty()) {
+    folder.emplace(
+        context.out, force_, std::vector<std::string>{context.config});
+    folder->Write(kResolvedConfig, ResolvedToml(*context.options));
+  }
   SoakResult result;
   result.first_seed = static_cast<std::uint64_t>(context.run.seed);
   {
@@ -89,10 +94,7 @@ ExitCode SoakCommand::Run(const CommandContext& context) {
                          std::to_string(result.failures.size()) + " failing");
     }
   }
-  if (folder) {
-    folder->Write("config.resolved.toml", ResolvedToml(*context.options));
-    folder->Write("report.json", SoakJson(result));
-  }
+  if (folder) folder->Write("report.json", SoakJson(result));
   std::cout << (context.json ? SoakJson(result) : SoakText(result));
   // Stopped or not, it is a soak of so many scenes.
   return result.failures.empty() ? ExitCode::kOk : ExitCode::kFailed;

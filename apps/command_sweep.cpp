@@ -282,8 +282,8 @@ ExitCode SweepCommand::Run(const CommandContext& context) {
     throw UsageError(
         "sweep: nothing to hold runs against; expected a [reference] or "
         "sweep.truth");
-  CheckFolder(out);
   CheckSettings();
+  CheckFolder(out);
   if (!options_.truth.empty())
     truth_ = LoadReference(options_.truth, options_.body);
   std::vector<std::string> common = {options_.command,

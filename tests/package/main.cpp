@@ -2,14 +2,17 @@
 // Calls into several layers, so that the libraries behind each must link, and
 // returns 0 if the answers are right.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "invsim/algebra/sparse_cholesky.h"
 #include "invsim/base/config.h"
 #include "invsim/base/threads.h"
+#include "invsim/fit/loss.h"
 #include "invsim/geometry/surface_index.h"
 #include "invsim/io/obj.h"
+#include "invsim/report/chart.h"
 
 namespace {
 
@@ -41,11 +44,19 @@ bool FindsClosestPoint() {
   return std::abs(nearest.distance - 2) < 1e-12;
 }
 
+// The losses of a fit by name (Ceres), a number as reports print it.
+bool KnowsLossesAndReports() {
+  const auto names = invsim::Losses().names();
+  return std::find(names.begin(), names.end(), "cauchy") != names.end() &&
+         invsim::ShortNumber(0.5) == "0.5";
+}
+
 }  // namespace
 
 int main() {
   invsim::SetThreads(1);
-  const bool right = ReadsConfig() && SolvesSparse() && FindsClosestPoint();
+  const bool right = ReadsConfig() && SolvesSparse() && FindsClosestPoint() &&
+                     KnowsLossesAndReports();
   std::printf("invsim package: %s\n", right ? "right" : "WRONG");
   return right ? 0 : 1;
 }

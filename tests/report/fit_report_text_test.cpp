@@ -62,6 +62,7 @@ TEST(FitReportText, NamesTheInputs) {
   r.fewest_points = 71;
   r.most_points = 93;
   r.points_dropped = 5;
+  r.points_filtered = 6;
   r.body_vertices = 1234;
   r.cloth_vertices = 567;
   r.friction = 0.25;
@@ -75,6 +76,7 @@ TEST(FitReportText, NamesTheInputs) {
               ElementsAre("scan/points, 8 frames at 30 per second, "
                           "71 to 93 points used of each"));
   EXPECT_THAT(value("points dropped"), ElementsAre("5 (not finite)"));
+  EXPECT_THAT(value("points filtered"), ElementsAre("6"));
   EXPECT_THAT(value("body"), ElementsAre("mannequin, 1234 vertices"));
   EXPECT_THAT(value("garment"), ElementsAre("shirt.obj, 567 vertices"));
   EXPECT_THAT(value("material"),

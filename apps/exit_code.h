@@ -2,9 +2,12 @@
 #ifndef INVSIM_APPS_EXIT_CODE_H_
 #define INVSIM_APPS_EXIT_CODE_H_
 
-namespace invsim {
+#include <algorithm>
+#include <iterator>
 
-enum class Termination;
+#include "invsim/fit/optimizer.h"
+
+namespace invsim {
 
 // What the process tells the one that started it.
 enum class ExitCode {
@@ -19,10 +22,36 @@ enum class ExitCode {
 };
 
 // Of a fit that ended so.
-ExitCode CodeOf(Termination termination);
+inline ExitCode CodeOf(Termination termination) {
+  switch (termination) {
+    case Termination::kConverged:
+      return ExitCode::kOk;
+    case Termination::kIterationLimit:
+    case Termination::kTimeLimit:
+    case Termination::kGivenUp:
+      return ExitCode::kStoppedEarly;
+    case Termination::kInterrupted:
+      return ExitCode::kInterrupted;
+    case Termination::kStalled:
+      return ExitCode::kStalled;
+    case Termination::kFailed:
+      break;
+  }
+  return ExitCode::kFailed;
+}
 
 // Of two fits the code that says less good.
-ExitCode Worse(ExitCode a, ExitCode b);
+inline ExitCode Worse(ExitCode a, ExitCode b) {
+  constexpr ExitCode kFromBest[] = {ExitCode::kOk,
+                                    ExitCode::kStoppedEarly,
+                                    ExitCode::kStalled,
+                                    ExitCode::kFailed,
+                                    ExitCode::kInterrupted};
+  const auto rank = [&](ExitCode code) {
+    return std::find(std::begin(kFromBest), std::end(kFromBest), code);
+  };
+  return rank(a) < rank(b) ? b : a;
+}
 
 }  // namespace invsim
 

@@ -15,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr char kResolved[] = "config.resolved.toml";
-constexpr char kSmall[] =
+constexpr char kSmallRun[] =
     " -q --garment tank_top --set input.edge=0.08 --frames 1"
     " --set step.substeps=1 --set relaxation.settle_seconds=0"
     " --set relaxation.move_seconds=0.001 --set relaxation.hold_seconds=0 ";
@@ -76,7 +76,7 @@ TEST_F(ForceTest, ARunKeepsAFolderThatIsNoRun) {
                            "out/checkpoint/a"})
     Put(file);
   ExpectRefused(
-      "simulate --force" + std::string(kSmall) + "--out " + Path("out"),
+      "simulate --force" + std::string(kSmallRun) + "--out " + Path("out"),
       AllOf(HasSubstr(Path("out")), HasSubstr(kResolved)));
   for (const char* file : {"out/body.npz",
                            "out/report.html",
@@ -87,7 +87,7 @@ TEST_F(ForceTest, ARunKeepsAFolderThatIsNoRun) {
 
 TEST_F(ForceTest, ARunKeepsWhatItReads) {
   const std::string line =
-      "simulate" + std::string(kSmall) + "--out " + Path("out");
+      "simulate" + std::string(kSmallRun) + "--out " + Path("out");
   ASSERT_EQ(RunCommand(line).exit_code, 0);
   const std::string body = Path("out/body.npz");
   const std::string motion = ReadFileBytes(body);
@@ -111,7 +111,7 @@ TEST_F(ForceTest, InitKeepsTheBodyItReads) {
   fs::rename(Path("seq/body_model.npz"), Path("seq/body.npz"));
   const std::string body = ReadFileBytes(Path("seq/body.npz"));
   const std::string line =
-      "init" + std::string(kSmall) + "--points " + Path("seq/points") +
+      "init" + std::string(kSmallRun) + "--points " + Path("seq/points") +
       " --body " + Path("seq/body.npz") + " --force --out " + Path("seq");
   ExpectRefused(line, HasSubstr("seq/body.npz: is to be read"));
   fs::remove(Path("seq/config.resolved.toml"));
@@ -178,7 +178,7 @@ TEST_F(ForceTest, AnEvaluationKeepsAReportOfSomethingElse) {
                 .exit_code,
             0);
   ASSERT_EQ(
-      RunCommand("simulate" + std::string(kSmall) + "--out " + Path("run"))
+      RunCommand("simulate" + std::string(kSmallRun) + "--out " + Path("run"))
           .exit_code,
       0);
   const std::string page = ReadFileBytes(Path("run/report.html"));

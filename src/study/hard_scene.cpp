@@ -317,7 +317,8 @@ HardOutcome RunHardScene(const HardScene& scene, bool derivative) {
   if (outcome.differentiated)
     for (const FrameStart& start : run.starts()) {
       CheckDerivative(scene, start.previous, start.body, start.cloth, &outcome);
-      if (outcome.columns > 0 || !outcome.broken.empty()) break;
+      if (outcome.columns >= scene.limits.columns || !outcome.broken.empty())
+        break;
     }
   for (Breach& breach : Judge(scene, scene.limits, outcome))
     outcome.broken.push_back(std::move(breach));

@@ -49,7 +49,7 @@ class RealData : public testing::Test {
 };
 
 class RealDataShirt : public RealData,
-                      public testing::WithParamInterface<const char*> {};
+                      public testing::WithParamInterface<std::string> {};
 
 TEST_P(RealDataShirt, IsWornWithEveryStepConverged) {
   const nlohmann::json report = Wear("tshirt", GetParam(), "");
@@ -62,11 +62,12 @@ TEST_P(RealDataShirt, IsWornWithEveryStepConverged) {
 
 INSTANTIATE_TEST_SUITE_P(Motions,
                          RealDataShirt,
-                         testing::Values("walk", "cmu_55_01"));
+                         testing::Values("walk", "cmu_55_01"),
+                         [](const auto& test) { return test.param; });
 
 class RealDataLayers
     : public RealData,
-      public testing::WithParamInterface<std::tuple<const char*, const char*>> {
+      public testing::WithParamInterface<std::tuple<std::string, std::string>> {
 };
 
 TEST_P(RealDataLayers, DoNotCross) {
@@ -89,7 +90,10 @@ INSTANTIATE_TEST_SUITE_P(
     Garments,
     RealDataLayers,
     testing::Combine(testing::Values("dress", "pants"),
-                     testing::Values("walk", "jump", "cmu_55_01")));
+                     testing::Values("walk", "jump", "cmu_55_01")),
+    [](const auto& test) {
+      return std::get<0>(test.param) + "_" + std::get<1>(test.param);
+    });
 
 }  // namespace
 }  // namespace invsim

@@ -240,7 +240,9 @@ TEST_F(SimulateTest, OverwritesNothingUnlessForced) {
   const CommandResult refused = RunCommand(line);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_EQ(RunCommand(line + " --force").exit_code, 2);  // none of ours
   EXPECT_FALSE(std::filesystem::exists(Path("run/report.json")));
+  WriteFileBytes(Path("run/config.resolved.toml"), "");
   EXPECT_EQ(RunCommand(line + " --force").exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(Path("run/report.json")));
   EXPECT_EQ(ReadFileBytes(Path("run/mine.txt")), "mine");

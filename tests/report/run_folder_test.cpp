@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "invsim/base/error.h"
 #include "invsim/io/file.h"
@@ -14,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 class RunFolderTest : public testing::Test {
  protected:
@@ -66,18 +69,22 @@ TEST_F(RunFolderTest, ForceRemovesTheEarlierRunAndNothingElse) {
 }
 
 TEST_F(RunFolderTest, ForceRemovesNeitherInputsNorWhatIsNoRun) {
-  const RunFolder first(root_.string(), false);
-  WriteFileBytes(first.Frame("cloth", 0), "points");
-  first.Write("body.npz", "model");
-  EXPECT_THROW(RunFolder(root_.string(), true), UsageError);
-  first.Write("config.resolved.toml", "");
+  const auto file = [&](const char* name) { return (root_ / name).string(); };
+  fs::create_directories(root_ / "cloth");
+  WriteFileBytes(file("cloth/000000.ply"), "points");
+  WriteFileBytes(file("body.npz"), "model");
+  const auto refused = [&](const std::string& why,
+                           const std::vector<std::string>& inputs) {
+    EXPECT_THAT([&] { RunFolder(root_.string(), true, inputs); },
+                ThrowsMessage<UsageError>(HasSubstr(why)));
+  };
+  refused("not a folder of earlier results", {});
+  WriteFileBytes(file("config.resolved.toml"), "");
   for (const char* input : {"cloth", "cloth/000000.ply", "body.npz"})
-    EXPECT_THROW(RunFolder(root_.string(), true, {first.File(input)}),
-                 UsageError)
-        << input;
-  EXPECT_TRUE(fs::exists(first.File("cloth/000000.ply")));
-  EXPECT_TRUE(fs::exists(first.File("body.npz")));
-  EXPECT_NO_THROW(RunFolder(root_.string(), true, {first.File("mine.obj")}));
+    refused("is to be read", {file(input)});
+  EXPECT_TRUE(fs::exists(file("cloth/000000.ply")));
+  EXPECT_TRUE(fs::exists(file("body.npz")));
+  EXPECT_NO_THROW(RunFolder(root_.string(), true, {file("mine.obj")}));
 }
 
 TEST_F(RunFolderTest, RefusesAFileAndWhatLiesUnderOne) {

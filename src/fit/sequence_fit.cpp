@@ -11,6 +11,7 @@
 #include "invsim/base/stopwatch.h"
 #include "invsim/fit/fit_checkpoint.h"
 #include "invsim/fit/remembered_term.h"
+#include "prospects.h"
 
 namespace invsim {
 namespace {
@@ -98,30 +99,6 @@ bool IsBetter(const FitRound& round, const FitResult& result) {
   return kept && round.optimizer && round.optimizer->usable() &&
          round.optimizer->final_cost < kept->final_cost;
 }
-
-// Whether a round may still end below what was kept: its first step that
-// helped is expected to have gained half of what there is to gain.
-class Prospects {
- public:
-  explicit Prospects(double kept) : kept_(kept) {}
-  bool good() const { return good_; }
-  void Update(const IterationRecord& record) {
-    if (record.iteration == 0) start_ = record.cost;
-    if (judged_ || record.cost >= start_) return;
-    judged_ = true;
-    good_ = record.cost - (start_ - record.cost) < kept_;
-  }
-  std::string reason() const {
-    std::ostringstream text;
-    text << "Its first step did not come near the cost of what is kept, "
-         << kept_ << ".";
-    return text.str();
-  }
-
- private:
-  double kept_, start_ = 0;
-  bool judged_ = false, good_ = true;
-};
 
 class Fitter {
  public:

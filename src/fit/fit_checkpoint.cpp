@@ -8,6 +8,7 @@
 #include "invsim/body/motion.h"
 #include "invsim/io/file.h"
 #include "invsim/io/npz.h"
+#include "invsim/io/text_scanner.h"
 
 namespace invsim {
 namespace {
@@ -56,7 +57,10 @@ NpyArray Rows(const Points& points) {
 
 Points FromRows(const Npz& npz, const std::string& name, int count) {
   const std::vector<double> values = npz.Doubles(name, {count, 3});
-  return Eigen::Map<const Points>(values.data(), 3, count);
+  Points points = Eigen::Map<const Points>(values.data(), 3, count);
+  if (!points.allFinite())
+    throw InputError(npz.name() + ": " + name + ": expected finite numbers");
+  return points;
 }
 
 }  // namespace
@@ -85,7 +89,7 @@ void FitCheckpoint::Open(const InputDigests& inputs) const {
   const std::vector<std::string> others =
       Differences(Parse(ReadFileBytes(path)), inputs);
   if (others.empty()) return;
-  std::string what = others[0];
+  std::string what = Printable(others[0]);
   if (others.size() > 1)
     what += " and " + std::to_string(others.size() - 1) + " more";
   RefuseToGoOn(path, what + " changed since the fit was begun");

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "invsim/base/digest.h"
 #include "invsim/base/error.h"
@@ -41,6 +43,21 @@ std::vector<double> Flat(const BodySequence& x) {
     flat.insert(flat.end(), x.translations[t].begin(), x.translations[t].end());
   }
   return flat;
+}
+
+// Of a record of evaluation; nothing if no evaluation is kept with it.
+std::optional<Evaluation> OutcomeFrom(double number) {
+  for (const Evaluation kept :
+       {Evaluation::kDone, Evaluation::kAbandoned, Evaluation::kFailed})
+    if (number == static_cast<double>(kept)) return kept;
+  return std::nullopt;
+}
+
+// What is not finite is no key: it is not even equal to itself.
+template <typename Iterator>
+bool AllFinite(Iterator from, Iterator to) {
+  return std::all_of(
+      from, to, [](double value) { return std::isfinite(value); });
 }
 
 constexpr int kTriangle = kNumBodyParameters * (kNumBodyParameters + 1) / 2;
@@ -125,17 +142,22 @@ void RememberedTerm::Accept(const std::vector<double>& record, long at) {
   const size_t unknowns = kNumShape + (kNumPose + 3) * frames;
   const auto first = record.begin();
   if (record[0] == kEvaluated && record.size() == 3 + frames + unknowns) {
+    const std::optional<Evaluation> outcome = OutcomeFrom(record[1]);
+    const auto known = first + (outcome == Evaluation::kDone ? 3 : 3 + frames);
+    if (!outcome || !AllFinite(known, record.end())) return;
     Entry entry;
-    entry.outcome = static_cast<Evaluation>(static_cast<int>(record[1]));
+    entry.outcome = *outcome;
     entry.limit = record[2];
     entry.costs.assign(first + 3, first + 3 + frames);
     points_[Key(first + 3 + frames, record.end())] = std::move(entry);
   } else if (record[0] == kLinearized && record.size() >= 2 + unknowns) {
+    if (!AllFinite(first + 2, first + 2 + unknowns)) return;
     const auto found = points_.find(Key(first + 2, first + 2 + unknowns));
     if (found == points_.end()) return;
     if (record[1] == 0)
       found->second.no_derivative = true;
-    else if (record.size() == 2 + unknowns + frames * kBlockDoubles)
+    else if (record.size() == 2 + unknowns + frames * kBlockDoubles &&
+             AllFinite(first, record.end()))
       found->second.blocks_at = at;
   }
 }

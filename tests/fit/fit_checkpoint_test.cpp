@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
+#include <string>
 
 #include "invsim/base/error.h"
 #include "invsim/base/random.h"
@@ -65,6 +67,38 @@ TEST(FitCheckpoint, ForgetsWhatWasDressedOnAnotherBody) {
   checkpoint.Save(1, reference);
   EXPECT_TRUE(checkpoint.LoadReference(1, reference.body, 5));
   EXPECT_FALSE(std::filesystem::exists(checkpoint.Evaluations(1)));
+}
+
+TEST(FitCheckpoint, RefusesClothThatIsNotFinite) {
+  const FitCheckpoint checkpoint(::testing::TempDir());
+  ClothReference reference{Points::Ones(3, 4),
+                           {Points::Zero(3, 5), Points::Zero(3, 5)}};
+  reference.cloth.v(1, 2) = std::numeric_limits<double>::infinity();
+  checkpoint.Save(1, reference);
+  try {
+    checkpoint.LoadReference(1, reference.body, 5);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("reference_1.npz: v: expected finite"),
+        std::string::npos)
+        << error.what();
+  }
+}
+
+// Somebody else's file may have anything in it; what is said is one line.
+TEST(FitCheckpoint, NamesWhatChangedInOneLine) {
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / "invsim_fit_line";
+  std::filesystem::create_directories(folder);
+  WriteFileBytes((folder / "inputs.txt").string(), "0a a\x1b[31m\rname\n");
+  try {
+    FitCheckpoint(folder.string()).Open({});
+    FAIL();
+  } catch (const InputError& error) {
+    for (const char c : std::string(error.what())) EXPECT_GE(c, ' ');
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST(FitCheckpoint, GoesOnFromTheSameInputsOnly) {

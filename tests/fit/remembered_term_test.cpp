@@ -5,8 +5,11 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 
+#include "invsim/base/digest.h"
 #include "invsim/base/error.h"
 #include "invsim/base/random.h"
 #include "invsim/fit/optimizer.h"
@@ -150,6 +153,34 @@ TEST_F(RememberedTermTest, ADamagedRecordIsNotBelieved) {
   bytes[bytes.size() / 2] ^= 1;
   WriteFileBytes(path_, bytes);
   EXPECT_EQ(Optimize(&toy, 100).shape, whole.shape);
+}
+
+// A record whose checksum is right, of what no evaluation can have been.
+TEST_F(RememberedTermTest, AnImpossibleRecordIsNotBelieved) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ToyTerm toy(Constant(0.2));
+  const auto known = [&](double outcome, double cost, double shape) {
+    std::vector<double> record = {1, outcome, kNoLimit, cost, cost, cost};
+    record.resize(record.size() + kNumShape + 3 * (kNumPose + 3), shape);
+    Digest digest;
+    for (const double value : record) digest.Add(value);
+    const std::uint64_t header[2] = {record.size(), digest.value()};
+    std::string bytes = "invsimf1";
+    bytes.append(reinterpret_cast<const char*>(header), sizeof(header));
+    bytes.append(reinterpret_cast<const char*>(record.data()),
+                 record.size() * sizeof(double));
+    WriteFileBytes(path_, bytes);
+    return RememberedTerm(&toy, path_).known();
+  };
+  const double done = static_cast<double>(Evaluation::kDone);
+  const double failed = static_cast<double>(Evaluation::kFailed);
+  EXPECT_EQ(known(done, 1, 0.5), 1);
+  EXPECT_EQ(known(failed, nan, 0.5), 1);
+  EXPECT_EQ(known(done, nan, 0.5), 0);
+  EXPECT_EQ(known(done, 1, nan), 0);
+  for (const double outcome :
+       {nan, 1e300, -1.0, 0.5, static_cast<double>(Evaluation::kStopped)})
+    EXPECT_EQ(known(outcome, 1, 0.5), 0) << outcome;
 }
 
 TEST_F(RememberedTermTest, RefusesAnotherFile) {

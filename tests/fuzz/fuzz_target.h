@@ -52,9 +52,12 @@ inline bool IsOneLine(std::string_view text) {
 }
 
 // What `parse()` returns; nothing if it refuses the input. Any exception but an
-// Error of this kind goes on and ends the program.
+// Error of this kind goes on and ends the program. `name` is that of the file,
+// or of its folder.
 template <typename Parse>
-auto ReadOrRefuse(const Parse& parse, ErrorKind kind = ErrorKind::kInput)
+auto ReadOrRefuse(const Parse& parse,
+                  ErrorKind kind = ErrorKind::kInput,
+                  const std::string& name = kFuzzName)
     -> std::optional<decltype(parse())> {
   try {
     return parse();
@@ -63,7 +66,7 @@ auto ReadOrRefuse(const Parse& parse, ErrorKind kind = ErrorKind::kInput)
     const std::string_view what = error.what();
     if (!IsOneLine(what)) std::fprintf(stderr, "%s\n", error.what());
     Require(IsOneLine(what), "an error is one printable line");
-    Require(what.substr(0, kFuzzName.size()) == kFuzzName,
+    Require(what.substr(0, name.size()) == name,
             "an error begins with the name of the file");
     return std::nullopt;
   }

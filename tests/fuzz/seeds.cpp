@@ -15,6 +15,8 @@
 
 #include "invsim/body/body_model.h"
 #include "invsim/body/motion.h"
+#include "invsim/fit/fit_checkpoint.h"
+#include "invsim/fit/remembered_term.h"
 #include "invsim/io/file.h"
 #include "invsim/io/npz.h"
 #include "invsim/io/pc2.h"
@@ -189,6 +191,46 @@ void WriteMotionSeeds(const std::string& folder) {
            kStored);
 }
 
+// A term of one frame whose every number is 0.5.
+class Halves : public DataTerm {
+ public:
+  int num_frames() const override { return 1; }
+  Evaluation Evaluate(const BodySequence&,
+                      double,
+                      std::vector<double>* costs) override {
+    *costs = {0.5};
+    return Evaluation::kDone;
+  }
+  bool Linearize(std::vector<FrameBlock>* blocks) override {
+    constexpr int n = kNumBodyParameters;
+    blocks->assign(
+        1, {0.5, VectorXd::Constant(n, 0.5), MatrixXd::Constant(n, n, 0.5)});
+    return true;
+  }
+};
+
+// Each file of a checkpoint under its own name, and inputs as one of them.
+void WriteCheckpointSeeds(const std::string& folder) {
+  const FitCheckpoint checkpoint(folder);
+  checkpoint.Open({{"points", "1"}, {"the body", "2"}});
+  BodySequence x;
+  x.poses.assign(1, PoseVector::Zero());
+  x.translations.assign(1, Vector3d::Zero());
+  checkpoint.Save(x);
+  checkpoint.Save(
+      1, {Points::Zero(3, 4), {Points::Ones(3, 3), Points::Zero(3, 3)}});
+  Halves halves;
+  RememberedTerm term(&halves, checkpoint.Evaluations(1));
+  std::vector<double> costs;
+  std::vector<FrameBlock> blocks;
+  term.Evaluate(x, kNoLimit, &costs);
+  term.Linearize(&blocks);
+  x.shape[0] = 1;
+  term.Evaluate(x, kNoLimit, &costs);
+  for (const char* name : {"start.npz", "reference_1.npz"})
+    WriteFileBytes(folder + name, Stored(ReadFileBytes(folder + name)));
+}
+
 }  // namespace
 }  // namespace invsim
 
@@ -206,4 +248,5 @@ int main(int argc, char** argv) {
   invsim::WritePointsSeeds(corpus + "points/");
   invsim::WriteBodySeeds(corpus + "body/");
   invsim::WriteMotionSeeds(corpus + "motion/");
+  invsim::WriteCheckpointSeeds(corpus + "checkpoint/");
 }

@@ -17,6 +17,7 @@ std::vector<std::unique_ptr<Command>> AllCommands() {
   commands.push_back(MakeInitCommand());
   commands.push_back(MakeInspectCommand());
   commands.push_back(MakeListCommand());
+  commands.push_back(MakeReportCommand());
   commands.push_back(MakeSimulateCommand());
   commands.push_back(MakeSoakCommand());
   commands.push_back(MakeSweepCommand());

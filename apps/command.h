@@ -100,6 +100,7 @@ std::unique_ptr<Command> MakeGalleryCommand();
 std::unique_ptr<Command> MakeInitCommand();
 std::unique_ptr<Command> MakeInspectCommand();
 std::unique_ptr<Command> MakeListCommand();
+std::unique_ptr<Command> MakeReportCommand();
 std::unique_ptr<Command> MakeSimulateCommand();
 std::unique_ptr<Command> MakeSoakCommand();
 std::unique_ptr<Command> MakeSweepCommand();

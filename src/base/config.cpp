@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "invsim/base/error.h"
+#include "invsim/base/names.h"
 #include "toml_letters.h"
 
 namespace invsim {
@@ -34,7 +35,8 @@ std::optional<ConfigValue> ScalarFromToml(const toml::node& node) {
   return std::nullopt;
 }
 
-std::optional<ConfigValue> ListFromToml(const toml::array& array) {
+// A list of numbers or of texts.
+std::optional<ConfigValue> PlainListFromToml(const toml::array& array) {
   std::vector<double> numbers;
   std::vector<std::string> texts;
   for (const toml::node& node : array) {
@@ -50,9 +52,24 @@ std::optional<ConfigValue> ListFromToml(const toml::array& array) {
   return std::nullopt;
 }
 
+// A list of scalars and of such lists.
+std::optional<ConfigValue> ListFromToml(const toml::array& array) {
+  ConfigList list;
+  for (const toml::node& node : array) {
+    const auto* inner = node.as_array();
+    const std::optional<ConfigValue> element =
+        inner ? PlainListFromToml(*inner) : ScalarFromToml(node);
+    if (!element) return std::nullopt;
+    list.elements.push_back(TomlText(*element));
+  }
+  return list;
+}
+
 std::optional<ConfigValue> FromToml(const toml::node& node) {
-  if (const auto* array = node.as_array()) return ListFromToml(*array);
-  return ScalarFromToml(node);
+  const auto* array = node.as_array();
+  if (!array) return ScalarFromToml(node);
+  const std::optional<ConfigValue> plain = PlainListFromToml(*array);
+  return plain ? plain : ListFromToml(*array);
 }
 
 // toml++ takes keys of any number of parts apart by recursion, and ends the
@@ -161,6 +178,9 @@ struct TomlWriter {
     }
     return text + "]";
   }
+  std::string operator()(const ConfigList& list) const {
+    return "[" + Join(list.elements) + "]";
+  }
 };
 
 }  // namespace
@@ -199,8 +219,8 @@ Config Config::FromText(std::string_view toml, const std::string& name) {
     const std::optional<ConfigValue> value = FromToml(node);
     if (!value)
       throw UsageError(origin + ": " + key +
-                       ": expected a number, a text, true, false, a list of "
-                       "numbers or a list of texts");
+                       ": expected a number, a text, true, false or a list of "
+                       "these");
     config.entries_[key] = {*value, "", origin};
   };
   const auto opened = [&](const std::string& key, const std::string& origin) {

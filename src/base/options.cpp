@@ -147,6 +147,9 @@ bool Allowed(const OptionInfo& info, const std::string& text) {
 
 bool Allowed(const OptionInfo&, bool) { return true; }
 
+// What no option takes.
+bool Allowed(const OptionInfo&, const ConfigList&) { return false; }
+
 template <typename T>
 bool Allowed(const OptionInfo& info, const std::vector<T>& list) {
   return std::all_of(

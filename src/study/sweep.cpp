@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <set>
 
@@ -20,21 +21,6 @@ std::string LastPart(const std::string& key) {
   return key.substr(key.rfind('.') + 1);
 }
 
-// "substeps=4" of ("substeps", "4"), fit to name a folder.
-std::string ShortName(const std::string& key, const std::string& value) {
-  const std::string name = key + "=" + value;
-  std::string kept;
-  for (const char c : name) {
-    const bool good = std::isalnum(static_cast<unsigned char>(c)) || c == '=' ||
-                      c == '.' || c == '-' || c == '_';
-    if (good)
-      kept += c;
-    else if (c != '"')
-      kept += '_';
-  }
-  return kept;
-}
-
 // The values of a list, each as TOML.
 std::vector<std::string> Elements(const std::string& key,
                                   const ConfigEntry& entry) {
@@ -48,6 +34,8 @@ std::vector<std::string> Elements(const std::string& key,
   } else if (const auto* words =
                  std::get_if<std::vector<std::string>>(&entry.value)) {
     for (const std::string& w : *words) texts.push_back(TomlText(w));
+  } else if (const auto* any = std::get_if<ConfigList>(&entry.value)) {
+    texts = any->elements;
   }
   if (texts.empty())
     throw UsageError(entry.origin + ": grid." + key +
@@ -65,7 +53,7 @@ std::vector<SweepSetting> Times(const std::vector<SweepSetting>& old,
     for (const std::string& value : values) {
       SweepSetting next = s;
       if (!next.name.empty()) next.name += ",";
-      next.name += ShortName(called, value);
+      next.name += called + "=" + NameOfValue(value);
       next.options.emplace_back(key, value);
       all.push_back(std::move(next));
     }
@@ -143,6 +131,21 @@ void Describe(OptionTable* table, SweepOptions* o) {
              {.doc = "share of the best error within which a setting counts "
                      "as good as the best",
               .at_least = 0});
+}
+
+std::string NameOfValue(const std::string& toml) {
+  const bool list = toml.starts_with('[');
+  std::string name;
+  for (const char c : toml) {
+    const bool good = std::isalnum(static_cast<unsigned char>(c)) || c == '=' ||
+                      c == '.' || c == '-' || c == '_';
+    const bool dropped = c == '"' || (list && std::strchr("[] ", c));
+    if (good)
+      name += c;
+    else if (!dropped)
+      name += list && c == ',' ? '+' : '_';
+  }
+  return name;
 }
 
 SweepPlan TakeSweepPlan(Config* config) {

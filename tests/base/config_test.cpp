@@ -74,10 +74,22 @@ TEST(ConfigTest, RefusesWhatIsNotToml) {
 
 TEST(ConfigTest, RefusesValuesNoOptionHas) {
   for (const char* value :
-       {"2020-01-01", "[[1, 2], [3]]", "[1, 'a']", "[{a = 1}]"}) {
+       {"2020-01-01", "[[[1, 2]], [3]]", "[2020-01-01]", "[{a = 1}]"}) {
     const std::string error = ErrorOf("x = 0\nkey = " + std::string(value));
     EXPECT_THAT(error, StartsWith("scene.toml:2:1: key: expected")) << value;
   }
+}
+
+// What sweeps try in turn.
+TEST(ConfigTest, ListsMayHoldAnything) {
+  for (const auto& [toml, elements] :
+       std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"[true, false]", {"true", "false"}},
+           {"[[1.5, 2.0], []]", {"[1.5, 2.0]", "[]"}},
+           {R"(["auto", ["a", "b"], 3])", {R"("auto")", R"(["a", "b"])", "3"}}})
+    EXPECT_EQ(Parsed(toml), ConfigValue(ConfigList{elements})) << toml;
+  const std::string text = R"([true, ["a", "b"]])";
+  EXPECT_EQ(TomlText(Parsed(text)), text);
 }
 
 TEST(ConfigTest, NamesAFileThatCannotBeRead) {

@@ -164,6 +164,8 @@ TEST_F(OptionsTest, WrongTypesAreRefused) {
                            "effects = ['wind']",
                            "effects = 'wind'",
                            "effects = true",
+                           "effects = [true, false]",
+                           "effects = [['wind'], ['membrane']]",
                            "inner.solver = 0"}) {
     EXPECT_THAT(ErrorOf("scene." + std::string(line)), HasSubstr(": expected "))
         << line;

@@ -55,6 +55,18 @@ TEST(SweepPlan, NamesMayBeFolders) {
   EXPECT_FALSE(plan.has_reference);
 }
 
+TEST(SweepPlan, TriesSwitchesAndLists) {
+  const SweepPlan plan = PlanOf(
+      "[grid]\nfit.uncertainty = [true, false]\n"
+      "scene.effects = [\"auto\", [\"inertia\", \"gravity\"]]\n");
+  ASSERT_EQ(plan.settings.size(), 4u);
+  EXPECT_EQ(plan.settings[0].name, "uncertainty=true,effects=auto");
+  EXPECT_EQ(plan.settings[3].name, "uncertainty=false,effects=inertia+gravity");
+  EXPECT_THAT(plan.settings[3].options,
+              ElementsAre(Pair("fit.uncertainty", "false"),
+                          Pair("scene.effects", "[\"inertia\", \"gravity\"]")));
+}
+
 TEST(SweepPlan, SaysWhatIsWrongAndWhere) {
   const auto message = [](const std::string& toml) -> std::string {
     try {

@@ -21,14 +21,21 @@
 
 namespace invsim {
 
-// A TOML scalar or a list of numbers or of texts; an empty list counts as
-// numbers.
+// A list of anything else, of booleans or of lists for example, each element
+// as TOML. No option is set to one; a sweep tries its elements in turn.
+struct ConfigList {
+  std::vector<std::string> elements;
+  bool operator==(const ConfigList&) const = default;
+};
+
+// A TOML scalar or a list; an empty list counts as numbers.
 using ConfigValue = std::variant<bool,
                                  std::int64_t,
                                  double,
                                  std::string,
                                  std::vector<double>,
-                                 std::vector<std::string>>;
+                                 std::vector<std::string>,
+                                 ConfigList>;
 
 // The value as TOML, numbers in the fewest digits that read back the same.
 std::string TomlText(const ConfigValue& value);
@@ -45,8 +52,8 @@ class Config {
  public:
   // Both throw UsageError naming the file, and the line and column where TOML
   // is malformed or uses what options have no use for (dates, lists of
-  // tables, lists of lists, control characters in keys, keys of more than 16
-  // parts, more than 32 KiB).
+  // tables, lists of lists of lists, control characters in keys, keys of more
+  // than 16 parts, more than 32 KiB).
   static Config FromFile(const std::string& path);
   static Config FromText(std::string_view toml, const std::string& name);
 

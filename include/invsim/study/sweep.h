@@ -18,6 +18,7 @@
 //   [grid]                         # every combination of these
 //   step.substeps = [1, 2, 4, 8]
 //   step.newton_iterations = [1, 3]
+//   scene.effects = ["auto", ["inertia", "gravity", "membrane"]]
 //
 //   [list.no_bending]              # and each of these by itself
 //   scene.effects = ["inertia", "gravity", "membrane"]
@@ -86,6 +87,10 @@ struct SweepPlan {
   // Where everything was written, by its key with the part it stood in.
   std::map<std::string, std::string> origins;
 };
+
+// A value, given as TOML, in the name of a setting: "cotton", or
+// "inertia+gravity" of a list. What may not stand in a folder's name is '_'.
+std::string NameOfValue(const std::string& toml);
 
 // Takes the keys under base, reference, grid and list out of `config` and
 // makes the plan of them. Throws UsageError, naming where the key was

@@ -15,6 +15,7 @@ constexpr double kPlotLeft = 70, kPlotRight = 700, kPlotTop = 30,
                  kPlotBottom = 370;
 constexpr char kFront[] = "#0072b2";
 constexpr char kDominated[] = "#aaaaaa";
+constexpr double kMark = 5;  // radius
 
 // A logarithmic axis. Zero, which it cannot hold, is drawn at its lower end.
 class Axis {
@@ -106,9 +107,13 @@ std::string InWords(const std::string& key) {
   return words + unit;
 }
 
-// Places for words that do not cover each other.
+// Places for words that cover neither marks nor each other.
 class Labels {
  public:
+  // Nothing is to stand on the mark at (x, y).
+  void Keep(double x, double y) {
+    taken_.push_back({x - kMark, y + kMark, 2 * kMark});
+  }
   // A little above (x, y) if that is free, else the nearest free height.
   double Place(double x, double y, bool to_the_right, const std::string& text) {
     const double width = kLetter * static_cast<double>(text.size());
@@ -159,10 +164,12 @@ class SweepDrawing {
          << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
          << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
     Axes();
+    Legend();
     Front();
     for (const bool front : {false, true})
       for (const SweepResult& r : report_.results)
         if (Drawable(r) && r.pareto == front) Mark(r);
+    Names();
     out_ << "</svg>\n";
     return out_.str();
   }
@@ -197,6 +204,13 @@ class SweepDrawing {
     Text(kPlotLeft, kPlotTop - 12, "start", InWords(report_.error_key));
   }
 
+  void Legend() {
+    out_ << "<text x=\"" << kPlotRight << "\" y=\"" << kPlotTop - 12
+         << "\" text-anchor=\"end\"><tspan fill=\"" << kFront
+         << "\">&#9679; on the Pareto front</tspan><tspan dx=\"12\" fill=\""
+         << kDominated << "\">&#9679;</tspan> dominated</text>\n";
+  }
+
   void Front() {
     out_ << "<path fill=\"none\" stroke=\"" << kFront
          << "\" stroke-width=\"1.5\" d=\"";
@@ -214,14 +228,26 @@ class SweepDrawing {
     const double x = x_.At(r.cost.median), y = y_.At(r.error);
     if (r.cost.least < r.cost.largest)
       Line(x_.At(r.cost.least), y, x_.At(r.cost.largest), y, color);
-    out_ << "<circle cx=\"" << x << "\" cy=\"" << y << "\" r=\"5\" fill=\""
-         << color << "\"><title>"
+    out_ << "<circle cx=\"" << x << "\" cy=\"" << y << "\" r=\"" << kMark
+         << "\" fill=\"" << color << "\"><title>"
          << EscapeHtml(r.setting.name + "\n" + OptionsOf(r.setting, "\n") +
                        "\n" + report_.error_key + " " + ShortNumber(r.error) +
                        "\n" + report_.cost_key + " " +
                        ShortNumber(r.cost.median))
          << "</title></circle>\n";
-    if (!r.pareto) return;
+    labels_.Keep(x, y);
+  }
+
+  // Of the settings on the front, with a white rim on what they cross.
+  void Names() {
+    out_ << "<g paint-order=\"stroke\" stroke=\"white\" stroke-width=\"3\">\n";
+    for (const SweepResult& r : report_.results)
+      if (Drawable(r) && r.pareto) Name(r);
+    out_ << "</g>\n";
+  }
+
+  void Name(const SweepResult& r) {
+    const double x = x_.At(r.cost.median), y = y_.At(r.error);
     const bool room = x < kPlotLeft + 0.75 * (kPlotRight - kPlotLeft);
     const std::string words = SettingInWords(r.setting);
     const double beside = room ? x + 8 : x - 8;

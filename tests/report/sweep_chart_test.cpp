@@ -166,6 +166,25 @@ TEST(SweepChart, NamesDoNotCoverEachOther) {
   EXPECT_NE(svg.find(">wall clock [s]<"), std::string::npos);
 }
 
+// Nor do they cover a mark; what lies below a name does not make it illegible.
+TEST(SweepChart, NamesKeepOffMarks) {
+  const DrawnSweep chart({ResultOf("of_a_long_name", 1, {1, 1, 1}),
+                          ResultOf("beaten", 1.02, {1.05, 1.05, 1.05}),
+                          ResultOf("dear", 0.5, {2, 2, 2})});
+  const Vector2d mark = chart.Circle("beaten");
+  const Vector2d name = chart.Text("of_a_long_name");
+  ASSERT_GT(mark.x(), name.x());
+  ASSERT_LT(mark.x(), name.x() + 80);
+  EXPECT_TRUE(name.y() < mark.y() - 5 || name.y() > mark.y() + 13) << name.y();
+  EXPECT_GT(chart.svg().find("stroke=\"white\""), chart.svg().rfind("<circle"));
+}
+
+TEST(SweepChart, SaysWhatTheColoursMean) {
+  const DrawnSweep chart({ResultOf("only", 1, {1, 1, 1})});
+  EXPECT_THAT(chart.svg(), HasSubstr(">&#9679; on the Pareto front<"));
+  EXPECT_THAT(chart.svg(), HasSubstr("> dominated<"));
+}
+
 // The setting that others are held against has none.
 TEST(SweepChart, NoErrorIsAtTheLowerEdge) {
   const DrawnSweep chart({ResultOf("exact", 0, {8, 8, 8}),

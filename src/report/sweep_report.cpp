@@ -108,13 +108,13 @@ std::string SweepCsv(const SweepReport& report) {
   const std::vector<std::string> keys = ValueKeys(report);
   std::ostringstream out;
   out.precision(9);
-  out << "name,options,usable,pareto";
+  out << "name,options,usable,failure,pareto";
   for (const std::string& key : keys) out << ',' << key;
   out << '\n';
   for (const SweepResult& r : report.results) {
     out << CsvQuoted(r.setting.name) << ','
         << CsvQuoted(OptionsOf(r.setting, "; ")) << ',' << r.usable << ','
-        << r.pareto;
+        << (r.usable ? "" : CsvQuoted(r.failure)) << ',' << r.pareto;
     for (const std::string& key : keys) {
       out << ',';
       if (const double* value = Find(r, key)) out << *value;

@@ -57,8 +57,10 @@ TEST(SweepReport, KeepsFailuresAsResults) {
               HasSubstr("failed (it broke)  broken"));
   const std::string csv = SweepCsv(ExampleSweep());
   EXPECT_EQ(Count(csv, "\n"), 5u);
-  EXPECT_THAT(csv, HasSubstr("name,options,usable,pareto,error_mm,seconds\n"));
-  EXPECT_THAT(csv, HasSubstr("0,0,,\n"));
+  EXPECT_THAT(
+      csv, HasSubstr("name,options,usable,failure,pareto,error_mm,seconds\n"));
+  EXPECT_THAT(csv, HasSubstr("1,,1,4,1\n"));
+  EXPECT_THAT(csv, HasSubstr("0,\"it broke\",0,,\n"));
 }
 
 TEST(SweepReport, ChartMarksTheFrontAndGreysTheRest) {

@@ -26,7 +26,7 @@ struct SweepReport {
 // Schema "invsim.sweep".
 std::string SweepJson(const SweepReport& report);
 
-// A row per setting: its options, how it ended, all its numbers.
+// A row per setting: its options, why it failed if it did, all its numbers.
 std::string SweepCsv(const SweepReport& report);
 
 // Error over cost, both logarithmic: the Pareto front joined by a line,

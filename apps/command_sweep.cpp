@@ -296,7 +296,11 @@ ExitCode SweepCommand::Run(const CommandContext& context) {
     common.insert(common.end(), {"--set", key + "=" + value});
   const SweepRuns runs(out.string(), common);
   std::ostream* log = context.verbosity < 0 ? nullptr : &std::cerr;
-  if (!RunAll(runs, log)) return ExitCode::kInterrupted;
+  if (!RunAll(runs, log)) {
+    std::cerr << "invsim: interrupted; the same command goes on with "
+              << out.string() << std::endl;
+    return ExitCode::kInterrupted;
+  }
   const SweepReport report = Gather(runs);
   WriteFileBytes((out / "sweep.json").string(), SweepJson(report));
   WriteFileBytes((out / "sweep.csv").string(), SweepCsv(report));

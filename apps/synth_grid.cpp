@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <ostream>
 #include <set>
 
@@ -29,7 +30,7 @@ std::string NameOf(const SweepSetting& setting) {
                       fs::path(value).extension() == ".obj" ||
                       fs::path(value).extension() == ".npz";
     name += (name.empty() ? "" : "_") +
-            (file ? fs::path(value).stem().string() : value);
+            (file ? fs::path(value).stem().string() : NameOfValue(toml));
   }
   return name;
 }
@@ -89,8 +90,11 @@ ExitCode SynthGrid::Run(const std::string& out,
       run.ForgetIfKilled();
     const RunOutcome outcome = run.Run();
     if (outcome.exit_code == static_cast<int>(ExitCode::kInterrupted) ||
-        InterruptRequested())
+        InterruptRequested()) {
+      std::cerr << "invsim: interrupted; the same command goes on with " << out
+                << std::endl;
       return ExitCode::kInterrupted;
+    }
     progress.Advance(name);
     complete = complete && outcome.usable();
     *results << (outcome.usable() ? "" : run.folder() + ": failed: ")

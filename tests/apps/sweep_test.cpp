@@ -89,6 +89,20 @@ TEST_F(SweepCommandTest, MeasuresEverySettingAndKeepsFailures) {
   EXPECT_THAT(refused.err, HasSubstr("--force"));
 }
 
+TEST_F(SweepCommandTest, TriesSwitchesAndLists) {
+  const CommandResult result =
+      Sweep(std::string(kBase) +
+            "[grid]\nscene.effects = [\"auto\", [\"inertia\", \"membrane\"]]\n"
+            "output.ply = [true]\n");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json json = Json();
+  EXPECT_EQ(json["results"][0]["name"], "ply=true,effects=auto");
+  EXPECT_EQ(json["results"][1]["name"], "ply=true,effects=inertia+membrane");
+  EXPECT_GT(json["results"][1]["values"]["cloth_rms_mm"],
+            json["results"][0]["values"]["cloth_rms_mm"]);
+  EXPECT_THAT(File("sweep.csv"), HasSubstr("effects=inertia+membrane"));
+}
+
 // Another garment mesh has other vertices: the surfaces are compared, for the
 // runs of the reference's mesh as well, so that all can be held side by side.
 TEST_F(SweepCommandTest, OtherMeshesAreComparedAsSurfaces) {
@@ -159,6 +173,22 @@ TEST_F(SweepCommandTest, GoesOnAfterItWasKilled) {
   const nlohmann::json json = Json();
   for (const auto& result : json["results"])
     EXPECT_TRUE(result["usable"]) << result;
+}
+
+TEST_F(SweepCommandTest, AnInterruptSaysHowToGoOn) {
+  std::string slow = kBase;
+  slow.replace(slow.find("frames = 2"), 10, "frames = 40");
+  const std::string config = (directory_ / "s.toml").string();
+  const std::string out = (directory_ / "out").string();
+  WriteFileBytes(config, slow + "[grid]\nstep.substeps = [1]\n");
+  const CommandResult result =
+      RunAndSignal("sweep --config '" + config + "' --out '" + out + "'",
+                   "[ -e '" + out + "/runs/reference/0/cloth/000002.ply' ]",
+                   "INT");
+  EXPECT_EQ(result.exit_code, 130) << result.out;
+  EXPECT_THAT(result.err,
+              HasSubstr("interrupted; the same command goes on with " + out));
+  EXPECT_FALSE(fs::exists(out + "/runs/reference/0.json"));
 }
 
 // Before anything is run, and where it was written.

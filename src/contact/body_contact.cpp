@@ -9,6 +9,7 @@
 #include "invsim/base/options.h"
 #include "invsim/base/threads.h"
 #include "invsim/geometry/surface_index.h"
+#include "slipped_vertices.h"
 
 namespace invsim {
 namespace {
@@ -91,6 +92,12 @@ struct BodyContactDetector::Impl {
               const std::vector<FacePoint>& near,
               std::vector<Minimum>* minima) const;
   void DropUnphysical(const Vector3d& x, std::vector<Minimum>* minima) const;
+  Contact MakeContact(const BodyContactOptions& options,
+                      double dt,
+                      const Points& body0,
+                      const Points& body1,
+                      const Points& x0,
+                      const BodyContact& source) const;
 
   SurfaceIndex surface;
   // Per cloth vertex: inside the body when last looked at.
@@ -252,30 +259,83 @@ void BodyContactDetector::Detect(const BodyContactOptions& options,
       if (m.side < 0) s.inside[i] = 1;
       const TriangleFeature feature =
           m.at.distance < kTouching ? TriangleFeature::kFace : m.at.feature;
-      const ContactPlane plane =
-          EvaluateContactPlane(options,
-                               dt,
-                               feature,
-                               m.side,
-                               x0.col(i),
-                               s.Corners(body0, m.at.face),
-                               s.Corners(body1, m.at.face));
-      Contact contact;
-      contact.vertex[0] = i;
-      contact.normal = plane.normal;
-      contact.velocity = plane.velocity;
-      contact.friction = options.friction;
-      if (found[i].size() > 1)
-        contact.compliance = options.shared_compliance / resistance[i];
       sources->push_back({static_cast<int>(contacts->size()),
                           i,
                           m.at.face,
                           feature,
                           m.side,
                           m.at.weights});
-      contacts->push_back(contact);
+      contacts->push_back(
+          s.MakeContact(options, dt, body0, body1, x0, sources->back()));
+      if (found[i].size() > 1)
+        contacts->back().compliance = options.shared_compliance / resistance[i];
     }
   }
+}
+
+Contact BodyContactDetector::Impl::MakeContact(
+    const BodyContactOptions& options,
+    double dt,
+    const Points& body0,
+    const Points& body1,
+    const Points& x0,
+    const BodyContact& source) const {
+  const ContactPlane plane = EvaluateContactPlane(options,
+                                                  dt,
+                                                  source.feature,
+                                                  source.side,
+                                                  x0.col(source.vertex),
+                                                  Corners(body0, source.face),
+                                                  Corners(body1, source.face));
+  Contact contact;
+  contact.vertex[0] = source.vertex;
+  contact.normal = plane.normal;
+  contact.velocity = plane.velocity;
+  contact.friction = options.friction;
+  return contact;
+}
+
+int BodyContactDetector::FindSlipped(const BodyContactOptions& options,
+                                     double dt,
+                                     const Points& body0,
+                                     const Points& body1,
+                                     const Points& x0,
+                                     const Points& v1,
+                                     const VectorXd& resistance,
+                                     std::vector<Contact>* contacts,
+                                     std::vector<BodyContact>* sources) {
+  Impl& s = *impl_;
+  const Points x1 = x0 + dt * v1;
+  const std::vector<int> off =
+      OffTheirFaces(options, dt, faces(), body1, x1, v1, *contacts, *sources);
+  if (off.empty()) return 0;
+  s.surface.Update(body1);
+  std::vector<SurfacePoint> nearest(off.size());
+  ParallelFor(static_cast<int>(off.size()), 64, [&](int k) {
+    nearest[k] = s.surface.Nearest(x1.col(off[k]));
+  });
+  std::vector<char> slipped(x0.cols(), 0);
+  const size_t known = sources->size();
+  for (size_t k = 0; k < off.size(); ++k) {
+    const int i = off[k];
+    if (nearest[k].signed_distance >= -kLetIn || !s.surface.Contains(x1.col(i)))
+      continue;
+    slipped[i] = 1;
+    sources->push_back({static_cast<int>(contacts->size()),
+                        i,
+                        nearest[k].face,
+                        TriangleFeature::kFace,
+                        1,
+                        nearest[k].weights});
+    contacts->push_back(
+        s.MakeContact(options, dt, body0, body1, x0, sources->back()));
+  }
+  if (sources->size() > known)
+    for (const BodyContact& source : *sources)
+      if (slipped[source.vertex])
+        (*contacts)[source.contact].compliance =
+            options.shared_compliance / resistance[source.vertex];
+  return static_cast<int>(sources->size() - known);
 }
 
 }  // namespace invsim

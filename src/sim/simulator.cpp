@@ -229,10 +229,15 @@ Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
                     contacts->FindLate(b0, b1, sub, stats);
          ++k)
       again();
-  if (contacts->self_contact_options())
-    for (int round = 0; outcome.finite && contacts->Sweep(round, sub, stats);
-         ++round)
-      again();
+  for (int round = 0; outcome.finite; ++round) {
+    const bool slipped = contacts->has_body() && round < kLateRounds &&
+                         contacts->FindSlipped(b0, b1, sub, stats);
+    // Looked for in any case: its last word is that nothing crosses.
+    const bool touched =
+        contacts->self_contact_options() && contacts->Sweep(round, sub, stats);
+    if (!slipped && !touched) break;
+    again();
+  }
   stats->most_contacts =
       std::max(stats->most_contacts, static_cast<int>(sub->contacts.size()));
   stats->most_cloth_contacts = std::max(

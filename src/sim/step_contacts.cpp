@@ -50,6 +50,10 @@ VectorXd StepContacts::VertexStiffness() const {
   return k;
 }
 
+VectorXd StepContacts::Resistance(double dt) const {
+  return setup_.mass / dt + dt * stiffness_;
+}
+
 void StepContacts::Find(const Points& b0,
                         const Points& b1,
                         SubstepRecord* sub,
@@ -73,7 +77,7 @@ void StepContacts::FindOnBody(const Points& b0,
                   b1,
                   sub->start.x,
                   sub->start.v,
-                  setup_.mass / sub->dt + sub->dt * stiffness_,
+                  Resistance(sub->dt),
                   &sub->contacts,
                   &sub->sources,
                   v1);
@@ -129,6 +133,27 @@ bool StepContacts::FindLate(const Points& b0,
     sub->linearizations.clear();
     if (cloth_) FindOnCloth(sub, stats);
   }
+  stats->detection_seconds += watch.seconds();
+  return more;
+}
+
+bool StepContacts::FindSlipped(const Points& b0,
+                               const Points& b1,
+                               SubstepRecord* sub,
+                               StepStats* stats) {
+  const Stopwatch watch;
+  const LinearizationRecord& lin = sub->linearizations.back();
+  const bool more = body_->FindSlipped(setup_.contact,
+                                       sub->dt,
+                                       b0,
+                                       b1,
+                                       sub->start.x,
+                                       Eigen::Map<const Points>(
+                                           lin.v.data(), 3, pattern_->size),
+                                       Resistance(sub->dt),
+                                       &sub->contacts,
+                                       &sub->sources) > 0;
+  stats->slip_solves += more;
   stats->detection_seconds += watch.seconds();
   return more;
 }

@@ -37,6 +37,12 @@ class StepContacts {
                 const Points& b1,
                 SubstepRecord* sub,
                 StepStats* stats);
+  // True if a vertex slid past the face that held it and into another one;
+  // there are then contacts with that, too.
+  bool FindSlipped(const Points& b0,
+                   const Points& b1,
+                   SubstepRecord* sub,
+                   StepStats* stats);
   // True if cloth touches cloth on its way; there are then contacts against it.
   // After the last round it is stopped instead (SubstepRecord::kept).
   bool Sweep(int round, SubstepRecord* sub, StepStats* stats);
@@ -46,6 +52,8 @@ class StepContacts {
 
  private:
   VectorXd VertexStiffness() const;
+  // Per vertex, the force that gives it 1 m/s among others that hold still.
+  VectorXd Resistance(double dt) const;
   void FindOnBody(const Points& b0,
                   const Points& b1,
                   const Points* v1,

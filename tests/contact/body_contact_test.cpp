@@ -171,6 +171,77 @@ TEST_F(BodyContactTest, TheFarSideOfAThinPartIsNoObstacle) {
   EXPECT_GT(found.contacts[0].normal.x(), 0.9);
 }
 
+// A vertex that lies on one wall of a trough, 8 mm from the bottom, in a step
+// in which it moves with v1.
+class SlippedTest : public BodyContactTest {
+ protected:
+  SlippedTest() : detector_(trough_.vertices, trough_.faces) {
+    x_.col(0) = 0.008 * kOut + options_.thickness * kNormal;
+    detector_.Detect(options_,
+                     kDt,
+                     trough_.vertices,
+                     trough_.vertices,
+                     x_,
+                     -4 * kOut,
+                     resistance_,
+                     &found_.contacts,
+                     &found_.sources);
+  }
+  int FindSlipped(const Points& v1) {
+    return detector_.FindSlipped(options_,
+                                 kDt,
+                                 trough_.vertices,
+                                 trough_.vertices,
+                                 x_,
+                                 v1,
+                                 resistance_,
+                                 &found_.contacts,
+                                 &found_.sources);
+  }
+  // Of the wall at x < 0: up along it from the bottom, and away from it.
+  inline static const Vector3d kOut = Vector3d(-1, 0.3, 0).normalized();
+  inline static const Vector3d kNormal = Vector3d(0.3, 1, 0).normalized();
+  const TriangleMesh trough_ = Trough(0.2, 0.06);
+  const VectorXd resistance_ = VectorXd::Constant(1, kResistance);
+  BodyContactDetector detector_;
+  Points x_{3, 1};
+  Found found_;
+};
+
+// At the start the wall ahead has no place that is a minimum of the distance.
+TEST_F(SlippedTest, WhatSlidesPastItsFaceMeetsTheNext) {
+  ASSERT_EQ(found_.contacts.size(), 1u);
+  EXPECT_TRUE(found_.contacts[0].exact());
+  const Vector3d v1 = -4 * kOut;
+  EXPECT_EQ(FindSlipped(v1), 1);
+  ASSERT_EQ(found_.contacts.size(), 2u);
+  ASSERT_EQ(found_.sources.size(), 2u);
+  EXPECT_EQ(found_.sources[1].contact, 1);
+  EXPECT_EQ(found_.sources[1].vertex, 0);
+  const Contact& wall = found_.contacts[1];
+  const Vector3d normal(-kNormal.x(), kNormal.y(), 0);
+  EXPECT_LT((wall.normal - normal).norm(), 1e-12);
+  // The plane of the wall, thickness above it, where the vertex would end.
+  EXPECT_NEAR(kDt * wall.normal.dot(v1 - wall.velocity),
+              normal.dot(x_.col(0) + kDt * v1) - options_.thickness,
+              1e-12);
+  for (const Contact& c : found_.contacts)
+    EXPECT_DOUBLE_EQ(c.compliance * kResistance, options_.shared_compliance);
+}
+
+TEST_F(SlippedTest, WhatStaysOnItsFaceOrOutsideDoesNot) {
+  EXPECT_EQ(FindSlipped(-1 * kOut), 0);
+  EXPECT_EQ(FindSlipped(4 * kOut), 0);
+  EXPECT_EQ(FindSlipped(Vector3d(4, 1.5, 0)), 0);
+  EXPECT_TRUE(found_.contacts[0].exact());
+}
+
+// The solution is to blame, not a missing contact.
+TEST_F(SlippedTest, NorDoesWhatIsPressedThroughItsPlane) {
+  EXPECT_EQ(FindSlipped(-4 * kOut - 2 * kNormal), 0);
+  EXPECT_EQ(found_.contacts.size(), 1u);
+}
+
 TEST_F(BodyContactTest, FindInsideCounts) {
   TriangleMesh ball = Sphere(3);
   ball.vertices *= 0.1;

@@ -77,6 +77,31 @@ inline TriangleMesh Grid(int n) {
   return m;
 }
 
+// A block with a flat trough along z in its top: two walls that rise from the
+// z axis to `rise` at |x| = `half`.
+inline TriangleMesh Trough(double half, double rise) {
+  const Eigen::Matrix<double, 2, 5> outline{{-half, half, half, 0, -half},
+                                            {-half, -half, rise, 0, rise}};
+  const int caps[3][3] = {{3, 4, 0}, {3, 0, 1}, {3, 1, 2}};
+  TriangleMesh block;
+  block.vertices.resize(3, 10);
+  block.vertices.topRows<2>() << outline, outline;
+  block.vertices.row(2) << Eigen::RowVectorXd::Constant(5, -half),
+      Eigen::RowVectorXd::Constant(5, half);
+  block.faces.resize(3, 16);
+  int f = 0;
+  for (int i = 0; i < 5; ++i) {
+    const int j = (i + 1) % 5;
+    block.faces.col(f++) << i, j, j + 5;
+    block.faces.col(f++) << i, j + 5, i + 5;
+  }
+  for (const auto& c : caps) {
+    block.faces.col(f++) << c[0], c[2], c[1];
+    block.faces.col(f++) << c[0] + 5, c[1] + 5, c[2] + 5;
+  }
+  return block;
+}
+
 }  // namespace invsim
 
 #endif  // INVSIM_TESTS_GEOMETRY_SHAPES_H_

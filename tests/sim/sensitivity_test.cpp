@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "geometry/shapes.h"
 #include "invsim/cloth/effects/mass_damping.h"
 #include "invsim/cloth/effects/self_contact.h"
 #include "sphere_scene.h"
@@ -32,6 +33,7 @@ struct Case {
   int newton_iterations;
   bool inertia = true;
   bool layers = false;  // a second piece of cloth on the first
+  bool hollow = false;  // shot across a trough instead of laid on a sphere
 };
 
 class SensitivityTest : public testing::TestWithParam<Case> {
@@ -44,6 +46,15 @@ class SensitivityTest : public testing::TestWithParam<Case> {
     garment_ = Square(10, 0.35, 0.135);
     if (c.layers)
       garment_ = Together(Square(6, 0.3, 0.135), Square(4, 0.15, 0.137));
+    if (c.hollow) {
+      sphere_ = Trough(0.2, 0.06);
+      garment_ = Square(6, 0.12, 0);
+      for (int i = 0; i < garment_.num_vertices(); ++i) {
+        const Vector3d flat = garment_.placed.col(i);
+        garment_.placed.col(i) = (flat.x() - 0.065) * kDown + 0.002 * kNormal +
+                                 Vector3d(0, 0, flat.z());
+      }
+    }
     SimulatorSetup setup = ClothSetup(garment_, sphere_);
     if (c.layers)
       setup.effects.push_back(std::make_unique<SelfContact>(
@@ -62,12 +73,20 @@ class SensitivityTest : public testing::TestWithParam<Case> {
     for (int frame = 0; frame < 8; ++frame)
       ASSERT_TRUE(simulator_->Advance(
           sphere_.vertices, sphere_.vertices, kFrame, &start_, &stats));
+    // Taut: slack triangles pass between tension and compression all the time.
+    if (c.hollow) {
+      const Vector3d middle = start_.x.rowwise().mean();
+      for (auto x : start_.x.colwise())
+        x += 0.03 * (x - middle - (x - middle).dot(kNormal) * kNormal);
+      start_.v.colwise() += 2.1 * kDown;
+    }
     p_ << 0.004, 0.003, -0.002, 0.06, 0.002;
     ASSERT_TRUE(Run(p_, &record_, &end_, &stats_));
     EXPECT_EQ(stats_.missed, 0);
     vertices_ = Sensitivity::BodyVertices(simulator_->body_faces(), record_);
     EXPECT_EQ(FixedContacts(record_), 0);
     EXPECT_EQ(stats_.most_cloth_contacts > 10, c.layers);
+    EXPECT_EQ(stats_.slip_solves > 0, c.hollow);
   }
 
   bool Run(const Parameters& p,
@@ -98,6 +117,9 @@ class SensitivityTest : public testing::TestWithParam<Case> {
   }
 
   static constexpr double kFrame = 1 / 60.0;
+  // Of the trough's wall at x < 0.
+  inline static const Vector3d kDown = Vector3d(1, -0.3, 0).normalized();
+  inline static const Vector3d kNormal = Vector3d(0.3, 1, 0).normalized();
   TriangleMesh sphere_;
   Garment garment_;
   std::unique_ptr<Simulator> simulator_;
@@ -218,7 +240,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Relinearised", 0.3, 2, 3},
                     Case{"QuasiStatic", 0.5, 2, 1, false},
                     Case{"Layers", 0.3, 3, 1, true, true},
-                    Case{"RelinearisedLayers", 0.3, 2, 3, true, true}),
+                    Case{"RelinearisedLayers", 0.3, 2, 3, true, true},
+                    Case{"Hollow", 0.3, 2, 1, true, false, true},
+                    Case{"RelinearisedHollow", 0.3, 2, 3, true, false, true}),
     [](const auto& c) { return std::string(c.param.name); });
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "geometry/shapes.h"
 #include "geometry/triangle_crossing.h"
 #include "invsim/cloth/effects/self_contact.h"
 #include "sphere_scene.h"
@@ -224,6 +225,36 @@ TEST_F(StepContactsTest, LateContactsStandInTheirOrder) {
   EXPECT_EQ(sub_.contacts[17].kind, ContactKind::kPin);
   for (size_t k = 0; k < between; ++k)
     EXPECT_EQ(sub_.cloth_sources[k].contact, static_cast<int>(18 + k));
+}
+
+// Cloth on one wall of a trough, moving so that all of it ends in the other.
+TEST_F(StepContactsTest, WhatSlipsPastItsFaceIsSolvedAgain) {
+  Garment sheet = Square(2, 0.01, 0);
+  const Vector3d normal = Vector3d(0.3, 1, 0).normalized();
+  for (int i = 0; i < sheet.num_vertices(); ++i) {
+    Vector3d x = sheet.placed.col(i);
+    x.x() -= 0.012;
+    x.y() = -0.3 * x.x();
+    sheet.placed.col(i) = x + 0.002 * normal;
+  }
+  Make(sheet, Trough(0.2, 0.06), {{0, sheet.placed.col(0)}});
+  const auto slipped = [&] {
+    return contacts_->FindSlipped(setup_.body, setup_.body, &sub_, &stats_);
+  };
+  sub_.start.v = Moving(Vector3d(7, -2.1, 0));
+  Find();
+  ASSERT_EQ(sub_.contacts.size(), 9u);
+  SolveTo(Moving(Vector3d(0.1, 0, 0)));
+  EXPECT_FALSE(slipped());
+  SolveTo(sub_.start.v);
+  EXPECT_TRUE(slipped());
+  EXPECT_EQ(sub_.sources.size(), 16u);  // two on each but the pinned one
+  EXPECT_EQ(sub_.contacts.size(), 17u);
+  EXPECT_EQ(sub_.linearizations.size(), 1u);
+  EXPECT_EQ(stats_.slip_solves, 1);
+  // Pressed through planes that it has.
+  EXPECT_FALSE(slipped());
+  EXPECT_EQ(stats_.slip_solves, 1);
 }
 
 // Two layers 1 cm apart, of which one goes through the other.

@@ -89,6 +89,7 @@ StepStats StatsWithFigures() {
   s.stick = 37;
   s.slide = 41;
   s.sweep_solves = 43;
+  s.slip_solves = 7;
   s.stopped = 47;
   s.assembly_seconds = 53;
   s.detection_seconds = 59;
@@ -114,6 +115,7 @@ TEST(StepStats, WhatIsCountedAddsUp) {
   EXPECT_EQ(sum.stick, 111);
   EXPECT_EQ(sum.slide, 123);
   EXPECT_EQ(sum.sweep_solves, 129);
+  EXPECT_EQ(sum.slip_solves, 21);
   EXPECT_EQ(sum.stopped, 141);
   EXPECT_EQ(sum.assembly_seconds, 159);
   EXPECT_EQ(sum.detection_seconds, 177);

@@ -21,6 +21,11 @@
 // Several contacts on one vertex (armpit, between the thighs) are the local
 // minima of the distance over the surface that are within reach. A vertex
 // inside the body is led out through the nearest point.
+//
+// A face that is no such minimum at the start of the step may still be run into
+// before its end: the next one, where the surface is hollow. That shows in the
+// solution, and the step is solved again with that face's plane, which is a
+// contact like the others (FindSlipped).
 
 #include <memory>
 #include <vector>
@@ -52,8 +57,10 @@ struct BodyContact {
   int vertex;   // of the cloth
   int face;     // of the body
   TriangleFeature feature;
-  double side;       // +1: the vertex is outside, -1: inside
-  Vector3d weights;  // barycentric, at the start of the sub-step
+  double side;  // +1: the vertex is outside, -1: inside
+  // Barycentric, at the start of the sub-step; of one that FindSlipped found,
+  // at its end.
+  Vector3d weights;
 };
 
 // n and w of one contact and their derivatives.
@@ -109,6 +116,21 @@ class BodyContactDetector {
               std::vector<Contact>* contacts,
               std::vector<BodyContact>* sources,
               const Points* v1 = nullptr);
+
+  // Adds contacts for vertices that keep clear of every plane they were given
+  // and yet end inside the body, moving with `v1` (the solution): in a step
+  // that takes a vertex beyond the face it slides on, it meets the next one
+  // where the surface is hollow. How many. What else is on such a vertex
+  // becomes compliant.
+  int FindSlipped(const BodyContactOptions& options,
+                  double dt,
+                  const Points& body0,
+                  const Points& body1,
+                  const Points& x0,
+                  const Points& v1,
+                  const VectorXd& resistance,
+                  std::vector<Contact>* contacts,
+                  std::vector<BodyContact>* sources);
 
  private:
   struct Impl;

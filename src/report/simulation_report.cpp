@@ -75,6 +75,7 @@ Json StatsJson(const FrameStats& stats) {
   json["factorizations"] = s.factorizations;
   json["solves"] = s.solves;
   json["contact_queries"] = s.contact_queries;
+  json["slip_solves"] = s.slip_solves;
   json["penetration_max_mm"] = 1000 * stats.penetration.deepest;
   json["penetrating_vertices"] = stats.penetration.inside;
   json["body_overlap_penetration_max_mm"] =

@@ -26,6 +26,7 @@ namespace {
 struct SoakOptions {
   double seconds = 3600;
   int scenes = 0;
+  bool people = false;
 };
 
 void Describe(OptionTable* table, SoakOptions* o) {
@@ -36,6 +37,7 @@ void Describe(OptionTable* table, SoakOptions* o) {
       "scenes",
       &o->scenes,
       {.doc = "scenes at most; 0: as many as the time allows", .at_least = 0});
+  table->Add("people", &o->people, {.doc = "only scenes of people"});
 }
 
 class SoakCommand : public Command {
@@ -79,6 +81,7 @@ ExitCode SoakCommand::Run(const CommandContext& context) {
   }
   SoakResult result;
   result.first_seed = static_cast<std::uint64_t>(context.run.seed);
+  std::uint64_t next = result.first_seed;
   {
     const Stopwatch watch;
     Progress progress(context.verbosity < 0 ? nullptr : &std::cerr,
@@ -86,7 +89,9 @@ ExitCode SoakCommand::Run(const CommandContext& context) {
                       "percent",
                       100);
     for (int percent = 0; percent < 100 && !InterruptRequested();) {
-      const RandomScene drawn = DrawScene(result.first_seed + result.scenes);
+      const std::uint64_t seed = next++;
+      if (options_.people && !IsPerson(seed)) continue;
+      const RandomScene drawn = DrawScene(seed);
       result.Add(drawn, RunRandomScene(drawn));
       const double done = 100 * Done(result, watch.seconds());
       for (; percent < 100 && percent + 1 <= done; ++percent)

@@ -34,19 +34,15 @@ bool FindNumber(const Json& json, const std::string& key, double* value) {
   return true;
 }
 
-// Processor time per second of the simulated sequence: of the processor time
-// of the run the share that the sequence took of its wall clock. (Loading,
-// dressing and writing are not what a setting of the step is judged by.)
-bool CpuPerSimulatedSecond(const Json& report,
-                           const RunOutcome& run,
-                           double* value) {
+// Processor time per second of the simulated sequence. (Loading, dressing and
+// writing are not what a setting of the step is judged by.)
+bool CpuPerSimulatedSecond(const Json& report, double* value) {
   double seconds = 0, frames = 0, rate = 0;
-  if (!FindNumber(report, "sequence.seconds.total", &seconds) ||
+  if (!FindNumber(report, "sequence.seconds.processor", &seconds) ||
       !FindNumber(report, "counts.frames_done", &frames) ||
-      !FindNumber(report, "inputs.frames_per_second", &rate) || frames < 2 ||
-      run.wall_seconds <= 0)
+      !FindNumber(report, "inputs.frames_per_second", &rate) || frames < 2)
     return false;
-  *value = run.cpu_seconds * (seconds / run.wall_seconds) * rate / (frames - 1);
+  *value = seconds * rate / (frames - 1);
   return true;
 }
 
@@ -86,7 +82,7 @@ SweepResult SweepRuns::Result(
     }
     const Json report = ReadObject(recorded.folder() + "/report.json");
     double value = 0;
-    if (CpuPerSimulatedSecond(report, run, &value)) simulation.push_back(value);
+    if (CpuPerSimulatedSecond(report, &value)) simulation.push_back(value);
     for (auto& [key, values] : numbers)
       if (FindNumber(report, key, &value)) values.push_back(value);
   }

@@ -2,30 +2,24 @@
 #include "harness.h"
 
 #include <sys/resource.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "invsim/base/stopwatch.h"
+
 namespace invsim {
 namespace {
 
 using Work = std::function<void()>;
 
-// Processor time of all threads of the process.
-double ProcessorSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * now.tv_nsec;
-}
-
 // Seconds of one call out of `calls`.
 double Sample(const Work& work, int calls) {
-  const double start = ProcessorSeconds();
+  const ProcessorStopwatch watch;
   for (int i = 0; i < calls; ++i) work();
-  return (ProcessorSeconds() - start) / calls;
+  return watch.seconds() / calls;
 }
 
 // Warms up and tells how many calls a sample needs to be long enough.

@@ -89,6 +89,7 @@ Json StatsJson(const FrameStats& stats) {
   }
   json["mean_speed_m_per_s"] = stats.mean_speed;
   json["seconds"] = {{"total", stats.seconds},
+                     {"processor", stats.processor_seconds},
                      {"assembly", s.assembly_seconds},
                      {"contact_detection", s.detection_seconds},
                      {"factorization", s.factor_seconds},

@@ -13,6 +13,7 @@ namespace invsim {
 void FrameStats::Add(const FrameStats& next) {
   step.Add(next.step);
   seconds += next.seconds;
+  processor_seconds += next.processor_seconds;
   mean_speed = next.mean_speed;
   penetration.KeepWorst(next.penetration);
   crossing_pairs = std::max(crossing_pairs, next.crossing_pairs);
@@ -30,6 +31,7 @@ FrameStepper::FrameStepper(Simulator* simulator, Points body, ClothState state)
 
 bool FrameStepper::Step(Points body, double duration, FrameStats* stats) {
   const Stopwatch watch;
+  const ProcessorStopwatch processor;
   // The simulator keeps track of sides by itself; asked once a frame, it also
   // notices what slipped past it, as where skin crosses skin.
   simulator_->FindInside(body_, state_);
@@ -40,6 +42,7 @@ bool FrameStepper::Step(Points body, double duration, FrameStats* stats) {
   }
   body_ = std::move(body);
   own.seconds = watch.seconds();
+  own.processor_seconds = processor.seconds();
   const FrameStats now = Measure();
   own.mean_speed = now.mean_speed;
   own.penetration = now.penetration;

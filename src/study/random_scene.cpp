@@ -6,13 +6,10 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <sstream>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "hard_cases.h"
-#include "invsim/base/random.h"
+#include "scene_draw.h"
 
 namespace invsim {
 namespace {
@@ -22,50 +19,20 @@ constexpr double kStiff = 1e5;
 constexpr double kRounding = 1e9;
 constexpr double kBoard = 0.1;
 
-double SmallestHeight(const TriangleMesh& mesh) {
-  const VectorXd areas = FaceAreas(mesh.vertices, mesh.faces);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (Eigen::Index f = 0; f < mesh.faces.cols(); ++f)
-    for (int k = 0; k < 3; ++k) {
-      const double side = (mesh.vertices.col(mesh.faces(k, f)) -
-                           mesh.vertices.col(mesh.faces((k + 1) % 3, f)))
-                              .norm();
-      smallest = std::min(smallest, 2 * areas[f] / side);
-    }
-  return smallest;
-}
+// People take as long as a hundred scenes of some tens of vertices.
+constexpr std::uint64_t kPersonEvery = 32;
 
-// Draws a scene step by step and says what it drew.
-class Draw {
+// Draws a scene of simple bodies.
+class Draw : SceneDraw {
  public:
-  explicit Draw(std::uint64_t seed) : random_(seed) { words_.precision(3); }
+  explicit Draw(std::uint64_t seed) : SceneDraw(seed) {}
 
   RandomScene Scene();
 
  private:
-  bool Chance(double share) { return random_.Uniform() < share; }
-  double Log(double low, double high) {
-    return std::exp(random_.Uniform(std::log(low), std::log(high)));
-  }
-  Vector3d Direction() {
-    const Vector3d v(random_.Normal(), random_.Normal(), random_.Normal());
-    return v.normalized();
-  }
-  Matrix3d Turn() {
-    return Eigen::AngleAxisd(random_.Uniform(0, EIGEN_PI), Direction())
-        .toRotationMatrix();
-  }
-  void Say(auto... parts) {
-    if (words_.tellp() > 0) words_ << ", ";
-    (words_ << ... << parts);
-  }
-
   std::vector<double> Lines(int cells, double side, double sliver);
   TriangleMesh Sheet();
   TriangleMesh Cloth();
-  void DrawMaterial();
-  void DrawEffects();
-  void Effect(const char* name, const char* key, double value);
   void DrawTime();
   TriangleMesh Capsule();
   TriangleMesh Compact();
@@ -76,10 +43,6 @@ class Draw {
   void DrawStart();
   void PutFarAway();
 
-  Random random_;
-  std::ostringstream words_;
-  HardScene scene_;
-  double stiffest_ = 0, softest_ = 0;  // N/m
   double depth_ = 0;  // m, of the body: how far in the cloth can get
 };
 
@@ -140,62 +103,6 @@ TriangleMesh Draw::Cloth() {
     mesh = Sheet();
   }
   return mesh;
-}
-
-void Draw::DrawMaterial() {
-  Material& material = scene_.material;
-  material.name = "cloth";
-  const double membrane = Log(1, 1e6);
-  stiffest_ = softest_ = membrane;
-  if (Chance(0.2)) {
-    const double ratio = Log(1, 1e3), other = std::max(1.0, membrane / ratio);
-    softest_ = other;
-    material.stretch = OrthotropicStretch{membrane, 0, other, other};
-    Say("membrane ", membrane, " and ", other, " N/m");
-  } else {
-    material.stretch = IsotropicStretch{membrane, random_.Uniform(0, 0.45)};
-    Say("membrane ", membrane, " N/m");
-  }
-  const double bending = Chance(0.1) ? 0 : Log(1e-7, 1);
-  material.bending = IsotropicBending{bending};
-  material.density = Log(0.01, 10);
-  Say("bending ", bending, " N m");
-  Say(material.density, " kg/m^2");
-}
-
-void Draw::Effect(const char* name, const char* key, double value) {
-  scene_.options.effects.push_back(name);
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  SetOption(&scene_, std::string("effects.") + name + "." + key, text.str());
-  Say(name, " ", key, " ", value);
-}
-
-void Draw::DrawEffects() {
-  std::vector<std::string>& effects = scene_.options.effects;
-  const auto leave_out = [&](const char* name) {
-    std::erase(effects, name);
-    Say("without ", name);
-  };
-  if (Chance(0.05)) leave_out("gravity");
-  if (Chance(0.05)) leave_out("bending");
-  if (Chance(0.03)) {
-    // Then nothing but damping holds loose cloth, and its speed is no energy.
-    leave_out("inertia");
-    Effect("mass_damping", "rate", Log(10, 1e4));
-    scene_.limits.energy = std::numeric_limits<double>::infinity();
-  } else if (Chance(0.2)) {
-    Effect("mass_damping", "rate", Log(0.1, 1e4));
-  }
-  if (Chance(0.2)) Effect("stiffness_damping", "membrane", Log(1e-4, 1));
-  if (Chance(0.2)) Effect("air_drag", "normal", Log(0.1, 5));
-  if (Chance(0.3)) Effect("self_contact", "friction", Log(0.01, 5));
-  BodyContactOptions& contact = scene_.options.contact;
-  contact.friction = Chance(0.1) ? 0 : Chance(0.1) ? 5 : Log(0.01, 5);
-  contact.thickness = Log(0.0005, 0.004);
-  Say("mu ", contact.friction);
-  Say("thickness ", contact.thickness, " m");
 }
 
 void Draw::DrawTime() {
@@ -380,10 +287,6 @@ void Draw::PutFarAway() {
 RandomScene Draw::Scene() {
   RandomScene drawn;
   drawn.derivative = Chance(0.2);
-  scene_.limits.missed = std::numeric_limits<int>::max();
-  // Where many halvings follow each other differences are good to no more.
-  scene_.limits.derivative = 1e-4;
-  scene_.limits.columns = 0;  // cloth may never meet the body
   const TriangleMesh cloth = Cloth();
   DrawMaterial();
   DrawEffects();
@@ -402,16 +305,7 @@ RandomScene Draw::Scene() {
     DrawStart();
   }
   if (Chance(0.05)) PutFarAway();
-  const VectorXd areas = FaceAreas(cloth.vertices, cloth.faces);
-  const double dt = 1 / scene_.frames_per_second /
-                    static_cast<double>(scene_.options.step.substeps);
-  const double height = SmallestHeight(cloth);
-  drawn.stiffness =
-      stiffest_ * dt * dt / (scene_.material.density * height * height);
-  drawn.board = std::get<IsotropicBending>(scene_.material.bending).stiffness /
-                (softest_ * areas.mean());
-  drawn.words = words_.str();
-  drawn.scene = std::move(scene_);
+  Finish(&drawn);
   return drawn;
 }
 
@@ -437,6 +331,9 @@ std::string KnownBorder(const RandomScene& drawn,
     return "slivers so thin that rounding decides";
   if (breach.limit == "penetration" && outcome.step.stopped > 0)
     return "cloth stopped on its way through cloth is in the way of the body";
+  if (breach.limit == "penetration" &&
+      outcome.overlap > drawn.scene.limits.penetration)
+    return "cloth caught where the body overlaps itself is led out slowly";
   if (breach.limit != "energy") return "";
   if (outcome.step.stopped > 0)
     return "cloth stopped on its way through cloth strains its neighbours";
@@ -450,8 +347,12 @@ std::string KnownBorder(const RandomScene& drawn,
   return "";
 }
 
+bool IsPerson(std::uint64_t seed) {
+  return seed % kPersonEvery == kPersonEvery - 1;
+}
+
 RandomScene DrawScene(std::uint64_t seed) {
-  RandomScene drawn = Draw(seed).Scene();
+  RandomScene drawn = IsPerson(seed) ? DrawPerson(seed) : Draw(seed).Scene();
   drawn.seed = seed;
   return drawn;
 }

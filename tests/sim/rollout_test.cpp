@@ -163,11 +163,14 @@ TEST(FrameStats, AddKeepsTheWorstAndTheLast) {
   a.penetration.deepest = 0.002;
   a.mean_speed = 0.4;
   b.seconds = 2;
+  a.processor_seconds = 3;
+  b.processor_seconds = 4;
   b.penetration.deepest = 0.001;
   b.mean_speed = 0.1;
   sum.Add(a);
   sum.Add(b);
   EXPECT_EQ(sum.seconds, 3);
+  EXPECT_EQ(sum.processor_seconds, 7);
   EXPECT_EQ(sum.penetration.deepest, 0.002);
   EXPECT_EQ(sum.mean_speed, 0.1);
 }

@@ -22,6 +22,17 @@
 //              of up to 20 cm; the cloth starts at up to 10 m/s, up to 3 cm
 //              inside, pinned, or 14 km away
 //
+// One seed in 32 is a person: the mannequin in any of the authored garments (6
+// cm triangles) and named fabrics, with effects as above, goes from the T-pose
+// to
+//
+//   shape      coefficients of up to 5 and -5
+//   pose       every joint turned by up to a radian and more, one by 180
+//              degrees, arms pressed to the trunk, the root by up to 2 pi
+//   place      up to a metre away
+//
+// its fastest vertex at 0.2 to 5 m/s, for 24 frames at most.
+//
 // A step that misses the contact tolerance and is counted breaks no limit here;
 // how many there are is the soak's to report.
 
@@ -48,6 +59,8 @@ struct RandomScene {
 };
 
 RandomScene DrawScene(std::uint64_t seed);
+// Whether the scene of the seed is of a person.
+bool IsPerson(std::uint64_t seed);
 
 // Runs the scene. An exception is a breach of "throws".
 HardOutcome RunRandomScene(const RandomScene& drawn);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "invsim/geometry/self_intersection.h"
 #include "scene_draw.h"
 
 namespace invsim {
@@ -309,6 +310,14 @@ RandomScene Draw::Scene() {
   return drawn;
 }
 
+// Whether the body does, in any frame: then no place is outside of all of it.
+bool CrossesItself(const HardScene& scene) {
+  for (int frame = 0; frame <= scene.frames; ++frame)
+    if (!SelfIntersections(scene.body_at(frame), scene.body.faces).empty())
+      return true;
+  return false;
+}
+
 }  // namespace
 
 HardOutcome RunRandomScene(const RandomScene& drawn) {
@@ -331,9 +340,9 @@ std::string KnownBorder(const RandomScene& drawn,
     return "slivers so thin that rounding decides";
   if (breach.limit == "penetration" && outcome.step.stopped > 0)
     return "cloth stopped on its way through cloth is in the way of the body";
-  if (breach.limit == "penetration" &&
-      outcome.overlap > drawn.scene.limits.penetration)
-    return "cloth caught where the body overlaps itself is led out slowly";
+  if (breach.limit == "penetration" && IsPerson(drawn.seed) &&
+      CrossesItself(drawn.scene))
+    return "cloth caught where the body crosses itself is led out slowly";
   if (breach.limit != "energy") return "";
   if (outcome.step.stopped > 0)
     return "cloth stopped on its way through cloth strains its neighbours";

@@ -61,6 +61,38 @@ TEST_F(GradientCheckTest, CountsColumnsWhoseContactsSwitch) {
   EXPECT_GT(check.worst_switched, check.worst);
 }
 
+// As of a joint's vertices that are far from the cloth: what is compared of
+// parameters that hardly move the body would be the solver's noise.
+TEST_F(GradientCheckTest, WhatMovesLessThanTheNoiseIsStill) {
+  const Points at = body_.Vertices(p_);
+  const double moves[] = {1, 1e-9};
+  MovableBody ball;
+  ball.at = at;
+  ball.parameters = 2;
+  ball.moved = [&](int k, double step) {
+    return Points(at.colwise() + step * moves[k] * Vector3d::UnitX());
+  };
+  ball.jacobian = [&](const std::vector<int>& vertices) {
+    Columns columns = Columns::Zero(3 * vertices.size(), 2);
+    for (size_t i = 0; i < vertices.size(); ++i)
+      for (int k = 0; k < 2; ++k) columns(3 * i, k) = moves[k];
+    return columns;
+  };
+  const auto check = [&](double noise) {
+    GradientCheckOptions options;
+    options.noise = noise;
+    return CheckFrameGradient(
+        options, ball, body_.Vertices({}), 1 / 60.0, state_, simulator_.get());
+  };
+  const GradientCheck told = check(1e-12), blind = check(0);
+  EXPECT_EQ(told.still, 1);
+  ASSERT_EQ(told.columns.size(), 1u);
+  EXPECT_EQ(told.columns[0].parameter, 0);
+  EXPECT_LT(told.worst, 1e-6);
+  EXPECT_EQ(blind.still, 0);
+  EXPECT_GT(blind.worst, 1e-6);
+}
+
 // A shift of the ball, with a derivative that is not a number.
 TEST_F(GradientCheckTest, WhatIsNotANumberIsWorst) {
   const Points at = body_.Vertices(p_);

@@ -29,11 +29,12 @@ struct GradientCheckOptions {
   // body hardly touches, nothing but rounding is left to compare. 0: every
   // column against itself.
   double floor = 0;
-  // How far the solver leaves a position open, m. Where the body does not move
-  // the cloth (no contact acts), differences over a step h below
-  // sqrt(rows) noise / h are none; and where differences grow like 1 / h far
-  // above it, the frame jumps from one solution to another, and the column
-  // counts as switched.
+  // How far the solver leaves a position open, m. Where neither the derivative
+  // nor a difference over a step h is above sqrt(rows) noise / h, there is
+  // nothing to compare (no contact acts, or on vertices that the parameter
+  // hardly moves); and where differences grow like 1 / h far above it, the
+  // frame jumps from one solution to another, and the column counts as
+  // switched.
   double noise = 0;
 };
 void Describe(OptionTable* table, GradientCheckOptions* options);
@@ -48,7 +49,7 @@ struct GradientColumn {
 
 struct GradientCheck {
   std::vector<GradientColumn> columns;  // of parameters that move the cloth
-  int still = 0;              // parameters without influence, exactly zero
+  int still = 0;              // parameters without influence to speak of
   int switched = 0;           // columns in which contacts changed
   double worst = 0;           // error of the columns in which they did not
   double worst_switched = 0;  // of those in which they did

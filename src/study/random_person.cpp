@@ -45,10 +45,8 @@ double LongestWay(const BodyModel& body, const BodyParameters& to) {
 const std::vector<Garment>& Wardrobe() {
   static const std::vector<Garment> wardrobe = [] {
     const BodyModel& body = Mannequin();
-    const TPoseBody standing{body.Vertices({}),
-                             body.faces(),
-                             body.Joints({}),
-                             body.data().weights};
+    const TPoseBody standing{
+        body.Vertices({}), body.faces(), body.Joints({}), body.data().weights};
     std::vector<Garment> made;
     for (const std::string& name : AuthoredGarmentNames())
       made.push_back(AuthoredGarment(name, standing, {.edge_length = 0.06}));
@@ -130,7 +128,11 @@ void PersonDraw::DrawMotion() {
   };
   scene_.body = {scene_.body_at(0), body_.faces()};
   DrawDirections(Scaled(to_, std::min(1.0, scene_.frames / moving)));
-  Say("at ", speed, " m/s in frames of 1/", fps, " s in ",
+  Say("at ",
+      speed,
+      " m/s in frames of 1/",
+      fps,
+      " s in ",
       scene_.options.step.substeps);
 }
 

@@ -21,7 +21,7 @@ enum class RunStatus {
 
 struct FrameStats {
   StepStats step;
-  double seconds = 0;     // of wall clock
+  double seconds = 0;  // of wall clock
   double processor_seconds = 0;
   double mean_speed = 0;  // of the cloth's vertices, m/s
   Penetration penetration;

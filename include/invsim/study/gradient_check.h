@@ -32,9 +32,9 @@ struct GradientCheckOptions {
   // How far the solver leaves a position open, m: a difference over a step h
   // below sqrt(rows) noise / h may be none. Of a column that is below that even
   // at the longest step (no contact acts, or on vertices that the parameter
-  // hardly moves) only differences above it are compared. Where differences grow
-  // like 1 / h far above it, the frame jumps from one solution to another, and
-  // the column counts as switched.
+  // hardly moves) only differences above it are compared. Where differences
+  // grow like 1 / h far above it, the frame jumps from one solution to another,
+  // and the column counts as switched.
   double noise = 0;
 };
 void Describe(OptionTable* table, GradientCheckOptions* options);

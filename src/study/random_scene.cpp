@@ -20,7 +20,7 @@ constexpr double kStiff = 1e5;
 constexpr double kRounding = 1e9;
 constexpr double kBoard = 0.1;
 
-// People take as long as a hundred scenes of some tens of vertices.
+// A person takes as long as ten scenes of some tens of vertices.
 constexpr std::uint64_t kPersonEvery = 32;
 
 // Draws a scene of simple bodies.

@@ -23,6 +23,10 @@ constexpr int kLateRounds = 4;
 // The share of energy from nowhere at which a step is halved.
 constexpr double kMostGain = 0.01;
 
+// How many times as often as one that is not solved: it takes one solve to see,
+// and shorter steps turn less, where a problem without an end stays one.
+constexpr int kGainHalvings = 2;
+
 Points Blend(const Points& a, const Points& b, double s) {
   return (1 - s) * a + s * b;
 }
@@ -57,7 +61,7 @@ struct Simulator::Impl {
                 double duration,
                 double s0,
                 double s1,
-                int halvings,
+                int halved,
                 ClothState* state,
                 StepStats* stats,
                 FrameRecord* record);
@@ -275,7 +279,7 @@ bool Simulator::Impl::Interval(const Points& body0,
                                double duration,
                                double s0,
                                double s1,
-                               int halvings,
+                               int halved,
                                ClothState* state,
                                StepStats* stats,
                                FrameRecord* record) {
@@ -286,11 +290,12 @@ bool Simulator::Impl::Interval(const Points& body0,
   sub.start = *state;
   StepStats own;
   const Outcome outcome = Substep(body0, body1, &sub, &own);
+  const bool solved = outcome.finite && outcome.converged;
   const bool gained =
       outcome.finite && inertia &&
       EnergyGain(setup.mass, setup.effects, sub, End(sub)) > kMostGain;
-  const bool good = outcome.finite && outcome.converged && !gained;
-  if (!good && halvings > 0) {
+  const int most = (solved ? kGainHalvings : 1) * setup.step.max_halvings;
+  if ((!solved || gained) && halved < most) {
     own.worst_residual = 0;  // of an attempt that is not kept
     stats->Add(own);
     ++stats->halved;
@@ -300,7 +305,7 @@ bool Simulator::Impl::Interval(const Points& body0,
                     duration,
                     s0,
                     middle,
-                    halvings - 1,
+                    halved + 1,
                     state,
                     stats,
                     record) &&
@@ -309,7 +314,7 @@ bool Simulator::Impl::Interval(const Points& body0,
                     duration,
                     middle,
                     s1,
-                    halvings - 1,
+                    halved + 1,
                     state,
                     stats,
                     record);
@@ -406,7 +411,7 @@ bool Simulator::Advance(const Points& body0,
                     duration,
                     static_cast<double>(k) / substeps,
                     static_cast<double>(k + 1) / substeps,
-                    s.setup.step.max_halvings,
+                    0,
                     &moved,
                     stats,
                     record)) {

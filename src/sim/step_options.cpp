@@ -59,7 +59,7 @@ void Describe(OptionTable* table, StepOptions* o) {
   table->Add("max_halvings",
              &o->max_halvings,
              {.doc = "how often a sub-step that misses the contact tolerance "
-                     "is halved",
+                     "is halved; twice as often one with energy from nowhere",
               .at_least = 0,
               .at_most = 10});
   table->AddSection("friction", &o->friction);

@@ -262,8 +262,8 @@ void Draw::DrawStart() {
     placed.row(1).array() -= inside + scene_.options.contact.thickness;
     GiveGrace(inside);
   }
-  // A body would have to go through a vertex that is held.
-  if (scene_.body_at || !Chance(0.3)) return;
+  // A vertex that is held is not to be in the way of a body, or inside one.
+  if (scene_.body_at || scene_.grace > 0 || !Chance(0.3)) return;
   scene_.pins.push_back({0, placed.col(0)});
   if (Chance(0.5)) scene_.pins.push_back({n - 1, placed.col(n - 1)});
   Say("pinned at ", scene_.pins.size());
@@ -349,7 +349,7 @@ std::string KnownBorder(const RandomScene& drawn,
   if (outcome.step.missed > 0)
     return "steps above the contact tolerance do not balance";
   if (drawn.stiffness > kStiff)
-    return "a membrane too stiff for an eighth of the step";
+    return "a membrane too stiff for a 64th of the step";
   if (drawn.board > kBoard)
     return "bending as stiff as the membrane closes cells to lines, where it "
            "has no angle";

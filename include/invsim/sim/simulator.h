@@ -14,8 +14,9 @@
 // solved exactly (contact/friction_solver.h), then x1 = x0 + dt v1. Smaller
 // sub-steps, or re-linearising about the result (`newton_iterations`), buy
 // accuracy with time. A sub-step that misses its tolerance is halved, at most
-// `max_halvings` times; if that does not help it is taken as it is, counted
-// and reported.
+// `max_halvings` times, and one that is solved but has energy from nowhere (its
+// linearisation does not see how far it turns) at most twice as often; if that
+// does not help it is taken as it is, counted and reported.
 
 #include <map>
 #include <memory>

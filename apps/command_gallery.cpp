@@ -32,6 +32,7 @@ std::vector<std::string> MapNames() {
 struct GalleryOptions {
   std::string only;
   std::string map = "none";
+  int every = 1;
   bool derivative = true;
 };
 
@@ -44,6 +45,11 @@ void Describe(OptionTable* table, GalleryOptions* o) {
              {.doc = "instead of the cases: one scene over a grid of two of "
                      "its figures, to where it breaks",
               .choices = MapNames()});
+  table->Add("every",
+             &o->every,
+             {.doc = "of a map: each row and column of so many, for a first "
+                     "look",
+              .at_least = 1});
   table->Add("derivative",
              &o->derivative,
              {.doc = "also hold the derivative of the last frame against "
@@ -121,7 +127,7 @@ ExitCode GalleryCommand::RunMap(const CommandContext& context,
                                 RunFolder* folder) {
   HardMapReport report;
   for (const HardMap& map : HardMaps())
-    if (map.name == options_.map) report.map = map;
+    if (map.name == options_.map) report.map = EveryNth(map, options_.every);
   const int columns = static_cast<int>(report.map.x.size());
   const int rows = static_cast<int>(report.map.y.size());
   {

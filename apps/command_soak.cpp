@@ -64,7 +64,7 @@ class SoakCommand : public Command {
         options_.scenes > 0
             ? static_cast<double>(result.scenes) / options_.scenes
             : 0;
-    return std::max(time, count);
+    return std::min(1.0, std::max(time, count));
   }
 
   SoakOptions options_;
@@ -93,10 +93,12 @@ ExitCode SoakCommand::Run(const CommandContext& context) {
       if (options_.people && !IsPerson(seed)) continue;
       const RandomScene drawn = DrawScene(seed);
       result.Add(drawn, RunRandomScene(drawn));
-      const double done = 100 * Done(result, watch.seconds());
-      for (; percent < 100 && percent + 1 <= done; ++percent)
-        progress.Advance(std::to_string(result.scenes) + " scenes, " +
-                         std::to_string(result.failures.size()) + " failing");
+      const int done = static_cast<int>(100 * Done(result, watch.seconds()));
+      if (done <= percent) continue;
+      progress.Advance(std::to_string(result.scenes) + " scenes, " +
+                           std::to_string(result.failures.size()) + " failing",
+                       done - percent);
+      percent = done;
     }
   }
   if (folder) folder->Write("report.json", SoakJson(result));

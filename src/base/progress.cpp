@@ -73,8 +73,8 @@ Progress::~Progress() {
   if (out_ && drawn_width_ > 0) *out_ << "\n" << std::flush;
 }
 
-void Progress::Advance(const std::string& note) {
-  ++done_;
+void Progress::Advance(const std::string& note, int items) {
+  done_ += items;
   if (!out_) return;
   const double now = clock_();
   const std::string line = Line(now - start_, note);

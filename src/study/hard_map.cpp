@@ -50,12 +50,27 @@ HardMap FrictionAndSqueeze() {
   return map;
 }
 
+template <typename T>
+void KeepEveryNth(int n, std::vector<T>* line) {
+  size_t kept = 0;
+  for (size_t i = 0; i < line->size(); i += n) (*line)[kept++] = (*line)[i];
+  line->resize(kept);
+}
+
 }  // namespace
 
 const std::vector<HardMap>& HardMaps() {
   static const std::vector<HardMap> maps = {StiffnessAndStep(),
                                             FrictionAndSqueeze()};
   return maps;
+}
+
+HardMap EveryNth(HardMap map, int n) {
+  KeepEveryNth(n, &map.x);
+  KeepEveryNth(n, &map.y);
+  KeepEveryNth(n, &map.x_labels);
+  KeepEveryNth(n, &map.y_labels);
+  return map;
 }
 
 HardMapCell RunMapCell(const HardMap& map, int i, int j) {

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "run_command.h"
@@ -14,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(GalleryCommand, PrintsATableAndWritesAReport) {
   const fs::path directory = TestDirectory();
@@ -52,6 +54,32 @@ TEST(GalleryCommand, KnowsItsMaps) {
   const CommandResult result = RunCommand("gallery -q --map stifness_dt");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("stiffness_dt"));
+}
+
+TEST(GalleryCommand, DrawsAMap) {
+  const fs::path directory = TestDirectory();
+  const std::string out = (directory / "out").string();
+  // Two of its cells: 60 degrees and none left, without friction.
+  const CommandResult result = RunCommand(
+      "gallery -q --map mu_squeeze --set gallery.every=10 --out " + out);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("friction coefficient"),
+                    HasSubstr("(0 of 2 cells)"),
+                    Not(HasSubstr("45"))));
+  const auto json = nlohmann::json::parse(ReadFileBytes(out + "/report.json"));
+  EXPECT_THAT(json.dump(), HasSubstr("mu_squeeze"));
+  EXPECT_THAT(ReadFileBytes(out + "/mu_squeeze.svg"), HasSubstr("</svg>"));
+  fs::remove_all(directory);
+}
+
+TEST(SoakCommand, SaysHowFarItIsOncePerScene) {
+  const CommandResult result = RunCommand("soak --seed 3 --scenes 2");
+  ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2)
+      << result.err;
+  EXPECT_THAT(result.err, HasSubstr("percent 50/100"));
+  EXPECT_THAT(result.err, HasSubstr("percent 100/100"));
 }
 
 TEST(SoakCommand, RunsTheSceneOfASeed) {

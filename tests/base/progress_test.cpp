@@ -47,6 +47,19 @@ TEST_F(ProgressTest, OneLinePerItemWithTimeLeft) {
             "frames 3/3  in 1:00  done\n");
 }
 
+TEST_F(ProgressTest, SeveralItemsAtOnce) {
+  {
+    Progress progress(&out_, {}, "percent", 100, clock());
+    now_ += 10;
+    progress.Advance("", 25);
+    now_ += 10;
+    progress.Advance("", 75);
+  }
+  EXPECT_EQ(out_.str(),
+            "percent 25/100  eta 0:30\n"
+            "percent 100/100  in 0:20\n");
+}
+
 TEST_F(ProgressTest, BarRedrawsItsLineAndWipesTheOld) {
   {
     Progress progress(&out_, {.bar = true}, "n", 2, clock());

@@ -46,8 +46,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // One more item is done; `note` says something about it in few words.
-  void Advance(const std::string& note = "");
+  // So many more items are done; `note` says something about them in few words.
+  void Advance(const std::string& note = "", int items = 1);
 
  private:
   std::string Line(double elapsed, const std::string& note) const;

@@ -24,6 +24,9 @@ struct HardMap {
 
 const std::vector<HardMap>& HardMaps();
 
+// The first and each n-th after it of the map's columns and rows.
+HardMap EveryNth(HardMap map, int n);
+
 // Per step, over the whole scene.
 struct HardMapCell {
   double iterations = 0;  // of splitting and Newton, per step

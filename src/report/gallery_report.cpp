@@ -190,6 +190,7 @@ Json JsonRow(const GalleryRow& row) {
   json["speed_max_m_per_s"] = NumberOrNull(o.speed);
   json["creep_max_mm"] = 1e3 * o.creep;
   json["vertices_misplaced"] = o.misplaced;
+  json["faces_closed"] = o.closed;
   json["crossing_faces_max"] = o.crossings;
   json["derivative_relative_error"] = NumberOrNull(o.derivative);
   json["derivative_columns"] = o.columns;

@@ -17,7 +17,17 @@ HardMap StiffnessAndStep() {
   map.x_title = "membrane stiffness, N/m";
   map.y_title = "length of a step, s";
   map.x = {1, 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10};
-  map.x_labels = {"1", "10", "100", "1e3", "1e4", "1e5", "1e6", "1e7", "1e8", "1e9", "1e10"};
+  map.x_labels = {"1",
+                  "10",
+                  "100",
+                  "1e3",
+                  "1e4",
+                  "1e5",
+                  "1e6",
+                  "1e7",
+                  "1e8",
+                  "1e9",
+                  "1e10"};
   for (int rate : {2000, 1000, 500, 240, 120, 60, 30, 20, 10, 5, 2, 1}) {
     map.y.push_back(1.0 / rate);
     map.y_labels.push_back("1/" + std::to_string(rate));

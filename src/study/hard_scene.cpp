@@ -8,6 +8,7 @@
 #include <sstream>
 #include <utility>
 
+#include "closed_faces.h"
 #include "hard_cases.h"
 #include "invsim/base/error.h"
 #include "invsim/base/stopwatch.h"
@@ -168,10 +169,14 @@ std::string Text(auto... parts) {
   return text.str();
 }
 
-bool HasSelfContact(const HardScene& scene) {
+bool HasEffect(const HardScene& scene, const char* name) {
   const std::vector<std::string>& effects = scene.options.effects;
-  return std::find(effects.begin(), effects.end(), "self_contact") !=
-         effects.end();
+  return std::find(effects.begin(), effects.end(), name) != effects.end();
+}
+
+bool Bends(const HardScene& scene) {
+  const auto* bending = std::get_if<IsotropicBending>(&scene.material.bending);
+  return HasEffect(scene, "bending") && !(bending && bending->stiffness == 0);
 }
 
 // The limits that the outcome of the scene breaks.
@@ -199,7 +204,7 @@ std::vector<Breach> Judge(const HardScene& scene,
     fail("energy", "energy gained from nowhere: ", o.energy);
   if (!(o.creep <= limits.creep)) fail("creep", "creep of ", o.creep, " m");
   if (o.misplaced > 0) fail("misplaced", o.misplaced, " vertices misplaced");
-  if (o.crossings > 0 && HasSelfContact(scene))
+  if (o.crossings > 0 && HasEffect(scene, "self_contact"))
     fail("crossing", o.crossings, " pairs of faces cross");
   if (o.differentiated && o.columns < limits.columns)
     fail("derivative", o.columns, " columns of the derivative compared");
@@ -225,6 +230,10 @@ class Run {
         state_(Start(scene)),
         energy_(simulator_, state_) {
     if (scene.body.faces.cols() > 0) surface_.emplace(body_, scene.body.faces);
+    if (Bends(scene)) {
+      closed_.emplace(scene.garment);
+      closed_->Add(state_.x);
+    }
     apart_ = NumCrossings() == 0;
   }
 
@@ -266,8 +275,16 @@ class Run {
     body_ = std::move(next);
     ++outcome_.frames;
     energy_.Add(record, state_);
+    if (closed_) CountClosed(record);
     Measure(frame);
     return true;
+  }
+
+  void CountClosed(const FrameRecord& record) {
+    for (size_t k = 1; k < record.substeps.size(); ++k)
+      closed_->Add(record.substeps[k].start.x);
+    closed_->Add(state_.x);
+    outcome_.closed = closed_->count();
   }
 
   void Measure(int frame) {
@@ -296,6 +313,7 @@ class Run {
   HardOutcome& outcome_;
   Simulator simulator_;
   std::optional<SurfaceIndex> surface_;
+  std::optional<ClosedFaces> closed_;  // of cloth that bends
   Points body_;
   ClothState state_;
   std::vector<FrameStart> starts_;

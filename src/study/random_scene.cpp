@@ -15,10 +15,8 @@
 namespace invsim {
 namespace {
 
-// Borders; see RandomScene.
-constexpr double kStiff = 1e5;
+// See RandomScene.
 constexpr double kRounding = 1e9;
-constexpr double kBoard = 0.1;
 
 // A person takes as long as ten scenes of some tens of vertices.
 constexpr std::uint64_t kPersonEvery = 32;
@@ -348,11 +346,9 @@ std::string KnownBorder(const RandomScene& drawn,
     return "cloth stopped on its way through cloth strains its neighbours";
   if (outcome.step.missed > 0)
     return "steps above the contact tolerance do not balance";
-  if (drawn.stiffness > kStiff)
-    return "a membrane too stiff for a 64th of the step";
-  if (drawn.board > kBoard)
-    return "bending as stiff as the membrane closes cells to lines, where it "
-           "has no angle";
+  if (outcome.closed > 0)
+    return "faces closed to lines or folded through, where bending has no "
+           "angle";
   return "";
 }
 

@@ -24,12 +24,12 @@ double SmallestHeight(const TriangleMesh& mesh) {
   return smallest;
 }
 
-// Along the axis that stretches least and most easily, N/m.
-std::pair<double, double> Extremes(const StretchModel& stretch) {
+// Along the axis that stretches least, N/m.
+double Stiffest(const StretchModel& stretch) {
   if (const auto* same = std::get_if<IsotropicStretch>(&stretch))
-    return {same->stiffness, same->stiffness};
+    return same->stiffness;
   const auto& woven = std::get<OrthotropicStretch>(stretch);
-  return {std::max(woven.c11, woven.c22), std::min(woven.c11, woven.c22)};
+  return std::max(woven.c11, woven.c22);
 }
 
 }  // namespace
@@ -111,16 +111,12 @@ void SceneDraw::DrawEffects() {
 }
 
 void SceneDraw::Finish(RandomScene* drawn) {
-  const Points& cloth = scene_.garment.placed;
-  const VectorXd areas = FaceAreas(cloth, scene_.garment.faces);
   const double dt = 1 / scene_.frames_per_second /
                     static_cast<double>(scene_.options.step.substeps);
-  const double height = SmallestHeight({cloth, scene_.garment.faces});
-  const auto [stiffest, softest] = Extremes(scene_.material.stretch);
-  drawn->stiffness =
-      stiffest * dt * dt / (scene_.material.density * height * height);
-  drawn->board = std::get<IsotropicBending>(scene_.material.bending).stiffness /
-                 (softest * areas.mean());
+  const double height =
+      SmallestHeight({scene_.garment.placed, scene_.garment.faces});
+  drawn->stiffness = Stiffest(scene_.material.stretch) * dt * dt /
+                     (scene_.material.density * height * height);
   drawn->words = words_.str();
   drawn->scene = std::move(scene_);
 }

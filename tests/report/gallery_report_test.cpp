@@ -38,6 +38,7 @@ GalleryRow SceneRow(const std::string& name) {
   o.creep = 0.0005;
   o.speed = 1.5;
   o.misplaced = 6;
+  o.closed = 9;
   o.derivative = 4e-8;
   o.columns = 7;
   o.switched = 1;
@@ -150,6 +151,7 @@ TEST(GalleryReport, ProgramsGetEveryFigureInTheUnitOfItsKey) {
   EXPECT_EQ(scene["speed_max_m_per_s"], 1.5);
   EXPECT_DOUBLE_EQ(scene["creep_max_mm"], 0.5);
   EXPECT_EQ(scene["vertices_misplaced"], 6);
+  EXPECT_EQ(scene["faces_closed"], 9);
   EXPECT_EQ(scene["derivative_relative_error"], 4e-8);
   EXPECT_EQ(scene["derivative_columns"], 7);
   EXPECT_EQ(scene["derivative_columns_switched"], 1);

@@ -91,6 +91,7 @@ struct HardOutcome {
   double creep = 0;        // m, from the end of the grace on
   double speed = 0;        // m/s, the largest of any vertex
   int misplaced = 0;
+  int closed = 0;     // times that a face was where bending has no angle
   int crossings = 0;  // pairs of faces, at any frame, if none did at first
   // Of the derivative; NaN: none was compared.
   double derivative = std::numeric_limits<double>::quiet_NaN();

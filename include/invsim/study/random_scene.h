@@ -48,14 +48,11 @@ struct RandomScene {
   std::string words;  // the scene in words, one line
   HardScene scene;
   bool derivative = false;  // the share whose derivative is to be checked
-  // What decides whether a scene is beyond a known border. Y is the membrane's
-  // stiffness (the larger one, then the smaller one), h the smallest height of
-  // a face, A the mean area.
-  // Y dt^2 / (rho h^2): how stiff the cloth is for the length of a step. Fits
-  // are below 1e4.
+  // How stiff the cloth is for the length of a step, which decides whether the
+  // scene is beyond the border of rounding: Y dt^2 / (rho h^2), Y the
+  // membrane's larger stiffness, h the smallest height of a face. Fits are
+  // below 1e4.
   double stiffness = 0;
-  // B / (Y A): how stiff it bends for how it stretches. Fits are below 0.01.
-  double board = 0;
 };
 
 RandomScene DrawScene(std::uint64_t seed);

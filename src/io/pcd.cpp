@@ -262,9 +262,10 @@ class PcdParser {
     Points points(3, points_);
     for (int axis = 0; axis < 3; ++axis) {
       const Field& field = fields_[axes_[axis]];
-      const char* at = data.data() + offsets[axis];
       for (std::int64_t i = 0; i < points_; ++i) {
-        points(axis, i) = Value(at + i * strides[axis], field.type, field.size);
+        // Of no points there may be no data to point into.
+        const char* at = data.data() + offsets[axis] + i * strides[axis];
+        points(axis, i) = Value(at, field.type, field.size);
       }
     }
     return points;

@@ -346,6 +346,9 @@ std::string KnownBorder(const RandomScene& drawn,
     return "cloth stopped on its way through cloth strains its neighbours";
   if (outcome.step.missed > 0)
     return "steps above the contact tolerance do not balance";
+  // That of slivers; see Draw::Sheet.
+  if (drawn.scene.options.step.max_halvings == 0)
+    return "slivers whose steps are not halved";
   if (outcome.closed > 0)
     return "faces closed to lines or folded through, where bending has no "
            "angle";

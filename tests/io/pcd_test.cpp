@@ -58,6 +58,12 @@ TEST(PcdTest, ReadsBinaryRowsOfAnyType) {
   EXPECT_EQ(points.col(1), Vector3d(1.5, -8, 0.2));
 }
 
+// Of no points there are no bytes, wherever a field would begin.
+TEST(PcdTest, ReadsBinaryRowsOfNoPoints) {
+  const std::string header = Header("FIELDS a x y z\n", 0) + "DATA binary\n";
+  EXPECT_EQ(ParsePcd(header, "t.pcd").cols(), 0);
+}
+
 // (i, 0.5, -2), i = 0 .. 5, as PCL 1.13 compresses it.
 const std::string kCompressed =
     "\x2a\x00\x00\x00\x48\x00\x00\x00\x01\x00\x00\x40\x00\x01\x80\x3f"

@@ -35,6 +35,6 @@ function(invsim_tests name)
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} invsim_test_main)
   gtest_discover_tests(${target} TEST_PREFIX "${name}/"
                        DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS ${name} TIMEOUT 300
+                       PROPERTIES LABELS ${name} TIMEOUT ${INVSIM_TEST_SECONDS}
                                   ENVIRONMENT OPENBLAS_NUM_THREADS=1)
 endfunction()

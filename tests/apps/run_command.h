@@ -55,13 +55,13 @@ inline CommandResult RunCommand(const std::string& arguments) {
   return RunShell("'" INVSIM_COMMAND "' " + arguments);
 }
 
-// Sends `signal` as soon as the shell finds `when` to be true, or after half a
-// minute.
+// Sends `signal` as soon as the shell finds `when` to be true, or after four
+// minutes.
 inline CommandResult RunAndSignal(const std::string& arguments,
                                   const std::string& when,
                                   const std::string& signal) {
   return RunShell("'" INVSIM_COMMAND "' " + arguments +
-                  " & pid=$!; n=0; while [ $n -lt 1500 ] && ! " + when +
+                  " & pid=$!; n=0; while [ $n -lt 12000 ] && ! " + when +
                   "; do sleep 0.02; n=$((n+1)); done; kill -" + signal +
                   " $pid; wait $pid");
 }

@@ -51,13 +51,13 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 add_link_options(-Wl,--as-needed)
 set(INVSIM_WARNINGS -Wall -Wextra -Wshadow -Wno-unused-parameter)
 # GCC 12 gives false alarms about Eigen's AVX-512 kernels on small matrices
-# (its own intrinsics start from an undefined register; with sanitizers they
-# are even called uninitialized for sure) and about
-# `"text" + std::string` (its bug 105651).
+# (its own intrinsics start from an undefined register, its bug 105593; on some
+# processors and with sanitizers they are even called uninitialized for sure)
+# and about `"text" + std::string` (its bug 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND INVSIM_WARNINGS
        -Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict)
-  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  if(INVSIM_NATIVE OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     list(APPEND INVSIM_WARNINGS -Wno-uninitialized)
   endif()
 endif()

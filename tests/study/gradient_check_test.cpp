@@ -93,6 +93,27 @@ TEST_F(GradientCheckTest, WhatMovesLessThanTheNoiseIsStill) {
   EXPECT_GT(blind.worst, 1e-6);
 }
 
+// A difference below the noise excuses no column above it.
+TEST_F(GradientCheckTest, WhatClaimsToMoveTheClothAndDoesNotIsWrong) {
+  const Points at = body_.Vertices(p_);
+  MovableBody ball;
+  ball.at = at;
+  ball.parameters = 1;
+  ball.moved = [&](int, double) { return at; };
+  ball.jacobian = [&](const std::vector<int>& vertices) {
+    Columns columns = Columns::Zero(3 * vertices.size(), 1);
+    for (size_t i = 0; i < vertices.size(); ++i) columns(3 * i, 0) = 1;
+    return columns;
+  };
+  GradientCheckOptions options;
+  options.noise = 1e-12;
+  options.floor = 1e-3;
+  const GradientCheck check = CheckFrameGradient(
+      options, ball, body_.Vertices({}), 1 / 60.0, state_, simulator_.get());
+  ASSERT_EQ(check.compared(), 1);
+  EXPECT_GT(check.worst, 1);
+}
+
 // A shift of the ball, with a derivative that is not a number.
 TEST_F(GradientCheckTest, WhatIsNotANumberIsWorst) {
   const Points at = body_.Vertices(p_);

@@ -76,6 +76,7 @@ Json StatsJson(const FrameStats& stats) {
   json["solves"] = s.solves;
   json["contact_queries"] = s.contact_queries;
   json["slip_solves"] = s.slip_solves;
+  json["yield_solves"] = s.yield_solves;
   json["penetration_max_mm"] = 1000 * stats.penetration.deepest;
   json["penetrating_vertices"] = stats.penetration.inside;
   json["body_overlap_penetration_max_mm"] =

@@ -29,6 +29,7 @@ bool SameContacts(const FrameRecord& a, const FrameRecord& b) {
     for (size_t k = 0; k < x.sources.size(); ++k) {
       const BodyContact &p = x.sources[k], &q = y.sources[k];
       if (p.vertex != q.vertex || p.face != q.face || p.feature != q.feature ||
+          x.contacts[p.contact].exact() != y.contacts[q.contact].exact() ||
           Mode(x, p.contact) != Mode(y, q.contact))
         return false;
     }

@@ -236,10 +236,12 @@ Simulator::Impl::Outcome Simulator::Impl::Substep(const Points& body0,
   for (int round = 0; outcome.finite; ++round) {
     const bool slipped = contacts->has_body() && round < kLateRounds &&
                          contacts->FindSlipped(b0, b1, sub, stats);
+    const bool yielded =
+        !slipped && round < kLateRounds && contacts->Stiffen(sub, stats);
     // Looked for in any case: its last word is that nothing crosses.
     const bool touched =
         contacts->self_contact_options() && contacts->Sweep(round, sub, stats);
-    if (!slipped && !touched) break;
+    if (!slipped && !yielded && !touched) break;
     again();
   }
   stats->most_contacts =

@@ -14,6 +14,9 @@ namespace {
 // on its way, before it is stopped.
 constexpr int kSweeps = 4;
 
+// How far a contact may yield in a step where it need not, m.
+constexpr double kMostYield = 1e-3;
+
 }  // namespace
 
 StepContacts::StepContacts(const SimulatorSetup& setup,
@@ -155,6 +158,31 @@ bool StepContacts::FindSlipped(const Points& b0,
                                        &sub->sources) > 0;
   stats->slip_solves += more;
   stats->detection_seconds += watch.seconds();
+  return more;
+}
+
+bool StepContacts::Stiffen(SubstepRecord* sub, StepStats* stats) const {
+  const std::vector<Vector3d>& forces = sub->linearizations.back().forces;
+  constexpr int kNone = -1, kSeveral = -2;
+  std::vector<int> loaded(pattern_->size, kNone);
+  for (const BodyContact& source : sub->sources) {
+    int& on = loaded[source.vertex];
+    // Cloth caught in the body is led out between parts that cross: exact
+    // contacts with one would push it deeper into the other.
+    if (source.side < 0)
+      on = kSeveral;
+    else if (!forces[source.contact].isZero(0))
+      on = on == kNone ? source.contact : kSeveral;
+  }
+  bool more = false;
+  for (const int k : loaded) {
+    if (k < 0) continue;
+    Contact& c = sub->contacts[k];
+    if (sub->dt * c.compliance * forces[k].norm() <= kMostYield) continue;
+    c.compliance = 0;
+    more = true;
+  }
+  stats->yield_solves += more;
   return more;
 }
 

@@ -43,6 +43,10 @@ class StepContacts {
                    const Points& b1,
                    SubstepRecord* sub,
                    StepStats* stats);
+  // True if a contact that is compliant because there are others on its vertex
+  // gives way too far though all of them are open and the vertex is outside
+  // the body; it is exact then.
+  bool Stiffen(SubstepRecord* sub, StepStats* stats) const;
   // True if cloth touches cloth on its way; there are then contacts against it.
   // After the last round it is stopped instead (SubstepRecord::kept).
   bool Sweep(int round, SubstepRecord* sub, StepStats* stats);

@@ -83,6 +83,7 @@ void StepStats::Add(const StepStats& o) {
   stick += o.stick;
   slide += o.slide;
   slip_solves += o.slip_solves;
+  yield_solves += o.yield_solves;
   most_cloth_contacts = std::max(most_cloth_contacts, o.most_cloth_contacts);
   sweep_solves += o.sweep_solves;
   stopped += o.stopped;

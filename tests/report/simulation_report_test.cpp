@@ -34,6 +34,7 @@ SimulationReport ExampleSimulation() {
   r.frames[1].step.substeps = 4;
   r.frames[2].step.substeps = 6;
   r.frames[2].step.slip_solves = 1;
+  r.frames[1].step.yield_solves = 2;
   r.frames[2].step.missed = 2;
   r.frames[2].step.worst_residual = 3e-5;
   r.frames[2].penetration.deepest = 0.0004;
@@ -106,6 +107,7 @@ TEST(SimulationReport, JsonIsVersionedAndHoldsEveryFrame) {
   EXPECT_EQ(json["total"]["steps_missed"], 2);
   EXPECT_EQ(json["sequence"]["steps"], 10);
   EXPECT_EQ(json["sequence"]["slip_solves"], 1);
+  EXPECT_EQ(json["sequence"]["yield_solves"], 2);
   EXPECT_EQ(json["relaxation"]["at_rest"], true);
   ASSERT_EQ(json["frames"].size(), 3u);
   EXPECT_EQ(json["frames"][2]["frame"], 2);

@@ -230,6 +230,48 @@ TEST_P(SensitivityTest, StartOfFrameMatchesDifferences) {
   EXPECT_LT(best, 1e-5);
 }
 
+// Cloth that contacts made exact keep out (StepContacts::Stiffen) goes with
+// the slab it is pressed on, and slides on it as far as friction lets it.
+TEST(Sensitivity, OfContactsMadeExactMatchesDifferences) {
+  const TriangleMesh slabs = TwoSlabs();
+  const Garment sheet = Square(4, 0.08, 0.004);
+  SimulatorSetup setup = ClothSetup(sheet, slabs);
+  setup.mass *= 1e4;
+  setup.step.substeps = 1;
+  setup.step.friction.tolerance = 1e-11;
+  Simulator simulator(std::move(setup));
+  const auto run = [&](const Vector3d& shift, FrameRecord* record) {
+    ClothState state = AtRest(sheet);
+    state.v.colwise() = Vector3d(5, -10, 0);
+    StepStats stats;
+    EXPECT_TRUE(simulator.Advance(slabs.vertices,
+                                  slabs.vertices.colwise() + shift,
+                                  1 / 60.0,
+                                  &state,
+                                  &stats,
+                                  record));
+    EXPECT_EQ(stats.yield_solves, 1);
+    EXPECT_GT(stats.slide, 0);
+    return VectorXd(Stacked(state.x));
+  };
+  FrameRecord record;
+  run(Vector3d::Zero(), &record);
+  const std::vector<int> vertices =
+      Sensitivity::BodyVertices(simulator.body_faces(), record);
+  const Columns shift = MatrixXd::Identity(3, 3).replicate(vertices.size(), 1);
+  StateColumns d;
+  ASSERT_TRUE(Sensitivity(simulator).Forward(
+      record, vertices, Columns(), shift, nullptr, &d));
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d h = 1e-6 * Vector3d::Unit(k);
+    FrameRecord plus, minus;
+    const VectorXd numeric = (run(h, &plus) - run(-h, &minus)) / 2e-6;
+    EXPECT_TRUE(SameContacts(record, plus) && SameContacts(record, minus));
+    // By a vertex of 25: along the way it slides nothing moves it.
+    EXPECT_LT((d.x.col(k) - numeric).norm(), 1e-6 * 5) << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes,
     SensitivityTest,

@@ -318,6 +318,26 @@ TEST(Simulator, AGrooveHoldsClothHoweverHardItIsPulled) {
   EXPECT_GT(closest, simulator.contact_options().thickness - 1e-4);
 }
 
+// Heavy cloth between two slabs, within reach of both, thrown against one: that
+// contact would yield by 1.5 mm because the other one is there, too.
+TEST(Simulator, AContactThatBearsAloneDoesNotYield) {
+  const TriangleMesh slabs = TwoSlabs();
+  const Garment sheet = Square(4, 0.08, 0.004);
+  SimulatorSetup setup = ClothSetup(sheet, slabs);
+  setup.mass *= 1e4;
+  setup.step.substeps = 1;
+  const double thickness = setup.contact.thickness;
+  Simulator simulator(std::move(setup));
+  ClothState state = AtRest(sheet);
+  state.v.row(1).setConstant(-10);
+  StepStats stats;
+  ASSERT_TRUE(simulator.Advance(
+      slabs.vertices, slabs.vertices, 1 / 60.0, &state, &stats));
+  EXPECT_EQ(stats.missed, 0);
+  EXPECT_EQ(stats.yield_solves, 1);
+  EXPECT_LT((state.x.row(1).array() - thickness).abs().maxCoeff(), 1e-8);
+}
+
 // Cloth that shoots down one wall of a trough: in one step it gets up to 17 mm
 // past the bottom, where no face held it at the start of the step.
 TEST(Simulator, FastClothDoesNotSlipIntoAHollow) {

@@ -113,6 +113,18 @@ inline Garment Together(const Garment& a, const Garment& b) {
   return GarmentFromRestMesh(vertices, faces);
 }
 
+// Two slabs with a gap of 8 mm from y = 0 up.
+inline TriangleMesh TwoSlabs() {
+  const TriangleMesh slab = Slab(0.3, 0.1);
+  TriangleMesh both;
+  both.vertices.resize(3, 16);
+  both.vertices << slab.vertices,
+      slab.vertices.colwise() + Vector3d(0, 0.108, 0);
+  both.faces.resize(3, 24);
+  both.faces << slab.faces, (slab.faces.array() + 8).matrix();
+  return both;
+}
+
 inline SimulatorSetup ClothSetup(const Garment& garment,
                                  const TriangleMesh& body) {
   Material material;

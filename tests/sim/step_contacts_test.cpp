@@ -257,6 +257,56 @@ TEST_F(StepContactsTest, WhatSlipsPastItsFaceIsSolvedAgain) {
   EXPECT_EQ(stats_.slip_solves, 1);
 }
 
+// Near the bottom of a trough every vertex is in contact with both walls.
+class BetweenTwoWalls : public StepContactsTest {
+ protected:
+  void SetUp() override {
+    const Garment sheet = Square(2, 0.002, 0.0045);
+    Make(sheet, Trough(0.2, 0.06));
+    Find();
+    ASSERT_EQ(sub_.sources.size(), 18u);
+    for (size_t k = 0; k < 18; k += 2)
+      ASSERT_EQ(sub_.sources[k].vertex, sub_.sources[k + 1].vertex);
+    SolveTo(Moving(Vector3d::Zero()));
+    sub_.linearizations[0].forces.assign(18, Vector3d::Zero());
+  }
+  // The contact yields by so many metres.
+  void Load(int k, double yield) {
+    const Contact& c = sub_.contacts[k];
+    sub_.linearizations[0].forces[k] =
+        yield / (sub_.dt * c.compliance) * c.normal;
+  }
+  bool Stiffen() { return contacts_->Stiffen(&sub_, &stats_); }
+};
+
+TEST_F(BetweenTwoWalls, AContactThatYieldsAloneBecomesExact) {
+  Load(6, 0.0011);
+  EXPECT_TRUE(Stiffen());
+  EXPECT_EQ(stats_.yield_solves, 1);
+  for (size_t k = 0; k < 18; ++k)
+    EXPECT_EQ(sub_.contacts[k].exact(), k == 6) << k;
+  EXPECT_FALSE(Stiffen());
+}
+
+TEST_F(BetweenTwoWalls, ContactsThatYieldALittleStayAsTheyAre) {
+  for (int k = 0; k < 18; k += 2) Load(k, 0.0009);
+  EXPECT_FALSE(Stiffen());
+  EXPECT_EQ(stats_.yield_solves, 0);
+}
+
+// Two exact ones on a vertex may contradict each other.
+TEST_F(BetweenTwoWalls, ContactsThatPressTogetherStayCompliant) {
+  for (int k = 0; k < 18; ++k) Load(k, 0.0011);
+  EXPECT_FALSE(Stiffen());
+}
+
+// Where it is led out, another part of the body may be in the way.
+TEST_F(BetweenTwoWalls, ContactsOfCaughtClothStayCompliant) {
+  Load(6, 0.0011);
+  sub_.sources[7].side = -1;
+  EXPECT_FALSE(Stiffen());
+}
+
 // Two layers 1 cm apart, of which one goes through the other.
 class LayersThatMeet : public StepContactsTest {
  protected:

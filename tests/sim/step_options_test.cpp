@@ -90,6 +90,7 @@ StepStats StatsWithFigures() {
   s.slide = 41;
   s.sweep_solves = 43;
   s.slip_solves = 7;
+  s.yield_solves = 5;
   s.stopped = 47;
   s.assembly_seconds = 53;
   s.detection_seconds = 59;
@@ -116,6 +117,7 @@ TEST(StepStats, WhatIsCountedAddsUp) {
   EXPECT_EQ(sum.slide, 123);
   EXPECT_EQ(sum.sweep_solves, 129);
   EXPECT_EQ(sum.slip_solves, 21);
+  EXPECT_EQ(sum.yield_solves, 15);
   EXPECT_EQ(sum.stopped, 141);
   EXPECT_EQ(sum.assembly_seconds, 159);
   EXPECT_EQ(sum.detection_seconds, 177);

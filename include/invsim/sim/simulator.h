@@ -66,6 +66,8 @@ struct StepStats {
   int open = 0, stick = 0, slide = 0;
   // Further solves for vertices that slid past a face and into the next.
   int slip_solves = 0;
+  // And for contacts that gave way too far (BodyContactOptions).
+  int yield_solves = 0;
   // Of the cloth with itself: the most in a step, further solves for pairs
   // that touched on their way, vertices stopped (one in two steps counts
   // twice), and the most pairs of faces that crossed at the start of a step.

@@ -29,11 +29,14 @@ struct GradientCheckOptions {
   // body hardly touches, nothing but rounding is left to compare. 0: every
   // column against itself.
   double floor = 0;
-  // How far the solver leaves a position open, m: over a step h, a column and
-  // a difference below sqrt(rows) noise / h may both be none, and are not
-  // compared. A column of which nothing is compared does not count as one that
-  // moves the cloth. Where differences grow like 1 / h far above it, the frame
-  // jumps from one solution to another, and the column counts as switched.
+  // How far the solver leaves a position open, m: a difference over a step h
+  // below sqrt(rows) noise / h may be none. Of a column that is below that even
+  // at the longest step (no contact acts, or on vertices that the parameter
+  // hardly moves) only differences above it are compared. Such a difference may
+  // confirm a column, but refutes none: if column and difference are below it
+  // at all steps over which contacts stay, the column counts as switched. So it
+  // does where differences grow like 1 / h far above it, as the frame jumps
+  // from one solution to another.
   double noise = 0;
 };
 void Describe(OptionTable* table, GradientCheckOptions* options);

@@ -14,7 +14,7 @@ namespace invsim {
 namespace {
 
 constexpr int kScenes = 2048;
-constexpr int kShards = 8;
+constexpr int kShards = 16;
 
 // The scenes of the shard's seeds, people apart: their garments take long to
 // make, so that they are all run by few processes.
@@ -45,12 +45,13 @@ class RandomSceneTest : public testing::TestWithParam<int> {};
 
 TEST_P(RandomSceneTest, Hold) {
   const SoakResult result = Soak(GetParam(), kShards, false);
-  // Few steps are above the contact tolerance, or scenes beyond a border: twice
-  // as many as in the worst of the shards. In most there is contact at all.
+  // Few scenes have steps above the contact tolerance or are beyond a border:
+  // 80 and 26 of all 2,048. In three of five there is contact at all. A shard
+  // strays from that.
   EXPECT_EQ(result.scenes, kScenes / kShards * 31 / 32);
-  EXPECT_LE(result.scenes_missed, 32);
-  EXPECT_LE(Beyond(result), 16);
-  EXPECT_GE(result.scenes_touching, result.scenes / 2);
+  EXPECT_LE(result.scenes_missed, 20);
+  EXPECT_LE(Beyond(result), 10);
+  EXPECT_GE(result.scenes_touching, 2 * result.scenes / 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSceneTest, testing::Range(0, kShards));

@@ -91,7 +91,12 @@ RememberedTerm::RememberedTerm(DataTerm* inner, const std::string& path)
     throw InputError(path + ": cannot be written: " + std::strerror(errno));
   // Nothing that could not be written may wait to be written later.
   std::setvbuf(file_, nullptr, _IONBF, 0);
-  Load();
+  try {
+    Load();
+  } catch (...) {  // the destructor is not run
+    std::fclose(file_);
+    throw;
+  }
 }
 
 RememberedTerm::~RememberedTerm() { std::fclose(file_); }

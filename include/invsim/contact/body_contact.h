@@ -47,7 +47,7 @@ struct BodyContactOptions {
   // Compliance of contacts that share a vertex, as a share of the vertex's own:
   // they yield by this much of the way on which their force would take the
   // vertex if its neighbours held still. Between parts of the body that press
-  // with 10,000 weights and more that is millimetres; the simulator solves a
+  // with 1,000 weights and more that is millimetres; the simulator solves a
   // step again in which one yields by more than 1 mm while the others on its
   // vertex, all of them outside the body, are open: with that one exact.
   double shared_compliance = 1e-2;

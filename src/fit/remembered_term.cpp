@@ -85,33 +85,26 @@ FrameBlock BlockFrom(const double* from) {
 
 RememberedTerm::RememberedTerm(DataTerm* inner, const std::string& path)
     : inner_(inner), path_(path) {
-  file_ = std::fopen(path.c_str(), "r+b");
-  if (!file_) file_ = std::fopen(path.c_str(), "w+b");
+  file_.reset(std::fopen(path.c_str(), "r+b"));
+  if (!file_) file_.reset(std::fopen(path.c_str(), "w+b"));
   if (!file_)
-    throw InputError(path + ": cannot be written: " + std::strerror(errno));
+    throw InputError(path_ + ": cannot be written: " + std::strerror(errno));
   // Nothing that could not be written may wait to be written later.
-  std::setvbuf(file_, nullptr, _IONBF, 0);
-  try {
-    Load();
-  } catch (...) {  // the destructor is not run
-    std::fclose(file_);
-    throw;
-  }
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  Load();
 }
-
-RememberedTerm::~RememberedTerm() { std::fclose(file_); }
 
 int RememberedTerm::num_frames() const { return inner_->num_frames(); }
 
 void RememberedTerm::Load() {
   char magic[sizeof(kMagic)] = {};
-  const size_t got = std::fread(magic, 1, sizeof(magic), file_);
+  const size_t got = std::fread(magic, 1, sizeof(magic), file_.get());
   if (got == sizeof(magic) && std::memcmp(magic, kMagic, sizeof(magic)) != 0)
     throw InputError(path_ + ": expected the checkpoint of a fit");
   long at = sizeof(kMagic);
   if (got < sizeof(magic)) {
-    std::rewind(file_);
-    if (std::fwrite(kMagic, 1, sizeof(kMagic), file_) != sizeof(kMagic))
+    std::rewind(file_.get());
+    if (std::fwrite(kMagic, 1, sizeof(kMagic), file_.get()) != sizeof(kMagic))
       throw InputError(path_ + ": cannot be written: " + std::strerror(errno));
   } else {
     std::vector<double> record;
@@ -119,7 +112,7 @@ void RememberedTerm::Load() {
     for (; ReadRecord(at, &record, &next); at = next) Accept(record, at);
   }
   // What was cut short must not stand in front of what follows.
-  if (ftruncate(fileno(file_), at) != 0)
+  if (ftruncate(fileno(file_.get()), at) != 0)
     throw InputError(path_ + ": cannot be written: " + std::strerror(errno));
 }
 
@@ -127,14 +120,14 @@ bool RememberedTerm::ReadRecord(long at,
                                 std::vector<double>* record,
                                 long* next) const {
   Header header;
-  std::fseek(file_, 0, SEEK_END);
-  const long size = std::ftell(file_);
-  std::fseek(file_, at, SEEK_SET);
-  if (std::fread(&header, sizeof(header), 1, file_) != 1) return false;
+  std::fseek(file_.get(), 0, SEEK_END);
+  const long size = std::ftell(file_.get());
+  std::fseek(file_.get(), at, SEEK_SET);
+  if (std::fread(&header, sizeof(header), 1, file_.get()) != 1) return false;
   const std::uint64_t room = (size - at - sizeof(header)) / sizeof(double);
   if (header.doubles > room || header.doubles < 2) return false;
   record->resize(header.doubles);
-  if (std::fread(record->data(), sizeof(double), header.doubles, file_) !=
+  if (std::fread(record->data(), sizeof(double), header.doubles, file_.get()) !=
       header.doubles)
     return false;
   *next =
@@ -169,18 +162,19 @@ void RememberedTerm::Accept(const std::vector<double>& record, long at) {
 
 void RememberedTerm::Append(const std::vector<double>& record) {
   if (!error_.empty()) return;
-  std::fseek(file_, 0, SEEK_END);
-  const long at = std::ftell(file_);
+  std::fseek(file_.get(), 0, SEEK_END);
+  const long at = std::ftell(file_.get());
   const Header header{record.size(), Checksum(record)};
-  if (std::fwrite(&header, sizeof(header), 1, file_) == 1 &&
-      std::fwrite(record.data(), sizeof(double), record.size(), file_) ==
+  if (std::fwrite(&header, sizeof(header), 1, file_.get()) == 1 &&
+      std::fwrite(record.data(), sizeof(double), record.size(), file_.get()) ==
           record.size()) {
     Accept(record, at);
     return;
   }
   error_ = path_ + ": cannot be written: " + std::strerror(errno);
-  std::clearerr(file_);
-  if (ftruncate(fileno(file_), at) != 0) error_ += "; and not mended either";
+  std::clearerr(file_.get());
+  if (ftruncate(fileno(file_.get()), at) != 0)
+    error_ += "; and not mended either";
 }
 
 Evaluation RememberedTerm::Evaluate(const BodySequence& x,

@@ -194,6 +194,18 @@ TEST_F(RememberedTermTest, RefusesAnotherFile) {
   }
 }
 
+TEST_F(RememberedTermTest, ClosesTheFileItRefuses) {
+  const auto open_files = [] {
+    const fs::directory_iterator files("/proc/self/fd");
+    return std::distance(begin(files), end(files));
+  };
+  WriteFileBytes(path_, "something else entirely");
+  ToyTerm toy(Constant(0.2));
+  const auto before = open_files();
+  EXPECT_THROW(RememberedTerm(&toy, path_), InputError);
+  EXPECT_EQ(open_files(), before);
+}
+
 TEST_F(RememberedTermTest, AStopSaysNothingAboutThePoint) {
   ToyTerm toy(Constant(0.2));
   std::vector<double> costs;

@@ -29,7 +29,6 @@ class RememberedTerm : public DataTerm {
   // must be the term (data, options, reference) the file was written with.
   // Throws InputError if the file is something else or cannot be written.
   RememberedTerm(DataTerm* inner, const std::string& path);
-  ~RememberedTerm() override;
 
   int num_frames() const override;
   Evaluation Evaluate(const BodySequence& x,
@@ -53,6 +52,9 @@ class RememberedTerm : public DataTerm {
     bool no_derivative = false;
   };
   using Key = std::vector<double>;
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
 
   void Load();
   void Append(const std::vector<double>& record);
@@ -61,7 +63,7 @@ class RememberedTerm : public DataTerm {
 
   DataTerm* inner_;
   std::string path_;
-  std::FILE* file_ = nullptr;
+  std::unique_ptr<std::FILE, Close> file_;
   std::map<Key, Entry> points_;
   Key key_;               // of the point evaluated last
   BodySequence current_;  // the same

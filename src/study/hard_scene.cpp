@@ -141,6 +141,7 @@ GradientCheckOptions DifferencesOf(const HardScene& scene,
   // Rounding of positions far away drowns small steps.
   if (at.cwiseAbs().maxCoeff() > kFar)
     options.steps = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  if (!scene.difference_steps.empty()) options.steps = scene.difference_steps;
   options.floor = 1e-3;
   // A residual of the tolerance, in weights, moves a free vertex by tolerance
   // g T^2 in a frame of T; light neighbours of heavy ones by more.
@@ -354,9 +355,9 @@ HardOutcome RunHardScene(const HardScene& scene, bool derivative) {
   HardOutcome outcome;
   Run run(scene, &outcome);
   run.Frames();
-  outcome.differentiated =
-      derivative && scene.differentiable && outcome.frames == scene.frames &&
-      outcome.step.missed == 0 && scene.body.faces.cols() > 0;
+  outcome.differentiated = derivative && outcome.frames == scene.frames &&
+                           outcome.step.missed == 0 &&
+                           scene.body.faces.cols() > 0;
   if (outcome.differentiated)
     for (const FrameStart& start : run.starts()) {
       CompareDerivative(scene, start, &outcome);

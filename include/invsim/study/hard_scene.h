@@ -67,7 +67,9 @@ struct HardScene {
   // How vertices of the body move, for the derivative: 3 x V each. Empty:
   // three shifts, three turns and a swelling about its middle.
   std::vector<Points> directions;
-  bool differentiable = true;  // false: too large for differences
+  // Of the differences that the derivative is held against, m; empty: the
+  // usual ones.
+  std::vector<double> difference_steps;
   // How many vertices are where no physics takes them; empty: not asked.
   std::function<int(const Points& cloth, const Points& body)> misplaced;
   HardLimits limits;

@@ -11,6 +11,7 @@
 #include <new>
 #include <utility>
 
+#include "invsim/base/threads.h"
 #include "invsim/sim/scene.h"
 #include "sim/test_scene.h"
 
@@ -63,6 +64,10 @@ struct Trace {
 
 class EffectOff : public ::testing::TestWithParam<std::string> {
  protected:
+  // What Embree takes for a search tree depends on the threads that build it.
+  EffectOff() { SetThreads(1); }
+  ~EffectOff() override { SetThreads(0); }
+
   // Every effect but GetParam().
   std::vector<std::string> Others() const {
     std::vector<std::string> names;
@@ -76,7 +81,7 @@ class EffectOff : public ::testing::TestWithParam<std::string> {
     const long before = allocations, bytes_before = allocated_bytes;
     SimulatorSetup setup = MakeSetup(scene, body_, sheet_, cloth_);
     trace.to_make = allocations - before;
-    setup.body_faces.resize(3, 0);  // its search tree is built by threads
+    setup.body_faces.resize(3, 0);
     Simulator simulator(std::move(setup));
     ClothState state{sheet_.placed, Points::Zero(3, sheet_.num_vertices())};
     StepStats stats;

@@ -7,37 +7,11 @@
 #include <cmath>
 #include <functional>
 
+#include "invsim/base/joints.h"
 #include "smooth_step.h"
 
 namespace invsim {
 namespace {
-
-enum Joint {
-  kPelvis,
-  kLeftHip,
-  kRightHip,
-  kSpine1,
-  kLeftKnee,
-  kRightKnee,
-  kSpine2,
-  kLeftAnkle,
-  kRightAnkle,
-  kSpine3,
-  kLeftFoot,
-  kRightFoot,
-  kNeck,
-  kLeftCollar,
-  kRightCollar,
-  kHead,
-  kLeftShoulder,
-  kRightShoulder,
-  kLeftElbow,
-  kRightElbow,
-  kLeftWrist,
-  kRightWrist,
-  kLeftHand,
-  kRightHand
-};
 
 using JointWeights = Eigen::Matrix<double, 1, kNumJoints>;
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "invsim/base/error.h"
+#include "invsim/base/joints.h"
 #include "invsim/base/names.h"
 #include "invsim/body/rotation.h"
 #include "mannequin_skin.h"
@@ -16,23 +17,6 @@ namespace invsim {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// The left of two joints; the right one is the next.
-enum Side {
-  kHip = 1,
-  kKnee = 4,
-  kAnkle = 7,
-  kFoot = 10,
-  kShoulder = 16,
-  kElbow = 18
-};
-enum Middle {
-  kRootJoint = 0,
-  kSpine1Joint = 3,
-  kSpine2Joint = 6,
-  kSpine3Joint = 9,
-  kHeadJoint = 15
-};
 
 auto Joint(int j, PoseVector* pose) { return pose->segment<3>(3 * j); }
 
@@ -46,8 +30,8 @@ void SetPair(int left, const Vector3d& v, PoseVector* pose) {
 // Arms lowered by a share of the way from the T-pose to the sides, elbows a
 // little bent.
 void LowerArms(double share, PoseVector* pose) {
-  SetPair(kShoulder, share * Vector3d(0.0, -0.15, -1.17), pose);
-  SetPair(kElbow, share * Vector3d(0.0, -0.25, 0.0), pose);
+  SetPair(kLeftShoulder, share * Vector3d(0.0, -0.15, -1.17), pose);
+  SetPair(kLeftElbow, share * Vector3d(0.0, -0.25, 0.0), pose);
 }
 
 // A swing that starts from rest: its amplitude grows over the first 1.2 s.
@@ -61,12 +45,12 @@ PoseVector ArmsDownAndSwing(double seconds) {
   const double swing = seconds > 1.5 ? Swing(seconds - 1.5, 1.4) : 0.0;
   // Before the arm is lowered: a swing about the body's x axis.
   for (int side = 0; side < 2; ++side) {
-    auto shoulder = Joint(kShoulder + side, &pose);
+    auto shoulder = Joint(kLeftShoulder + side, &pose);
     const double sign = side == 0 ? 1.0 : -1.0;
     shoulder = Log(Exp(Vector3d(-0.55 * sign * swing, 0, 0)) * Exp(shoulder));
-    Joint(kElbow + side, &pose).y() -= sign * 0.15 * swing * swing;
+    Joint(kLeftElbow + side, &pose).y() -= sign * 0.15 * swing * swing;
   }
-  Joint(kSpine2Joint, &pose).y() = -0.08 * swing;
+  Joint(kSpine2, &pose).y() = -0.08 * swing;
   return pose;
 }
 
@@ -78,28 +62,28 @@ PoseVector WalkInPlace(double seconds) {
     const double sign = side == 0 ? 1.0 : -1.0;
     // A leg is lifted in its half of the period, and stands in the other.
     const double lift = std::pow(std::max(0.0, sign * swing), 2.0);
-    Joint(kHip + side, &pose).x() = -0.75 * lift;
-    Joint(kKnee + side, &pose).x() = 1.15 * lift;
-    Joint(kAnkle + side, &pose).x() = -0.20 * lift;
-    auto shoulder = Joint(kShoulder + side, &pose);
+    Joint(kLeftHip + side, &pose).x() = -0.75 * lift;
+    Joint(kLeftKnee + side, &pose).x() = 1.15 * lift;
+    Joint(kLeftAnkle + side, &pose).x() = -0.20 * lift;
+    auto shoulder = Joint(kLeftShoulder + side, &pose);
     shoulder = Log(Exp(Vector3d(0.40 * sign * swing, 0, 0)) * Exp(shoulder));
   }
-  Joint(kSpine1Joint, &pose).y() = 0.06 * swing;
-  Joint(kSpine3Joint, &pose).y() = 0.06 * swing;
+  Joint(kSpine1, &pose).y() = 0.06 * swing;
+  Joint(kSpine3, &pose).y() = 0.06 * swing;
   return pose;
 }
 
 PoseVector Turn(double seconds) {
   PoseVector pose = PoseVector::Zero();
-  SetPair(kShoulder, Vector3d(0.0, -0.10, -0.90), &pose);
-  SetPair(kElbow, Vector3d(0.0, -0.20, 0.0), &pose);
+  SetPair(kLeftShoulder, Vector3d(0.0, -0.10, -0.90), &pose);
+  SetPair(kLeftElbow, Vector3d(0.0, -0.20, 0.0), &pose);
   // A quarter turn a second, reached smoothly within one; the head leads.
   const double speed = 0.5 * kPi;
   const double ramp = std::min(seconds, 1.0);
   // The integral of SmoothStep(0, 1, .) up to ramp.
   const double eased = std::pow(ramp, 4) * (2.5 + ramp * (ramp - 3.0));
-  Joint(kRootJoint, &pose).y() = speed * (eased + std::max(0.0, seconds - 1.0));
-  Joint(kHeadJoint, &pose).y() = 0.25 * SmoothStep(0.0, 1.0, seconds);
+  Joint(kPelvis, &pose).y() = speed * (eased + std::max(0.0, seconds - 1.0));
+  Joint(kHead, &pose).y() = 0.25 * SmoothStep(0.0, 1.0, seconds);
   return pose;
 }
 
@@ -110,16 +94,16 @@ PoseVector Squat(double seconds) {
   const double down = Bump(0.0, 1.3, 1.5, 2.8, phase);
   LowerArms(1.0, &pose);
   for (int side = 0; side < 2; ++side) {
-    auto shoulder = Joint(kShoulder + side, &pose);
+    auto shoulder = Joint(kLeftShoulder + side, &pose);
     shoulder = Log(Exp(Vector3d(-1.15 * down, 0, 0)) * Exp(shoulder));
   }
-  SetPair(kHip, Vector3d(-1.35 * down, 0.0, 0.12 * down), &pose);
-  SetPair(kKnee, Vector3d(1.65 * down, 0.0, 0.0), &pose);
-  SetPair(kAnkle, Vector3d(-0.62 * down, 0.0, 0.0), &pose);
-  Joint(kRootJoint, &pose).x() = 0.32 * down;
-  Joint(kSpine1Joint, &pose).x() = 0.10 * down;
-  Joint(kSpine3Joint, &pose).x() = 0.10 * down;
-  Joint(kHeadJoint, &pose).x() = -0.30 * down;
+  SetPair(kLeftHip, Vector3d(-1.35 * down, 0.0, 0.12 * down), &pose);
+  SetPair(kLeftKnee, Vector3d(1.65 * down, 0.0, 0.0), &pose);
+  SetPair(kLeftAnkle, Vector3d(-0.62 * down, 0.0, 0.0), &pose);
+  Joint(kPelvis, &pose).x() = 0.32 * down;
+  Joint(kSpine1, &pose).x() = 0.10 * down;
+  Joint(kSpine3, &pose).x() = 0.10 * down;
+  Joint(kHead, &pose).x() = -0.30 * down;
   return pose;
 }
 
@@ -154,15 +138,16 @@ std::array<Vector3d, 4> Soles(const PoseVector& pose) {
   std::array<Vector3d, 4> soles;
   for (int side = 0; side < 2; ++side) {
     Matrix3d rotation = Exp(root);
-    Vector3d place = rest.col(kRootJoint);
-    int parent = kRootJoint;
-    for (const int joint : {kHip + side, kKnee + side, kAnkle + side}) {
+    Vector3d place = rest.col(kPelvis);
+    int parent = kPelvis;
+    for (const int joint :
+         {kLeftHip + side, kLeftKnee + side, kLeftAnkle + side}) {
       place += rotation * (rest.col(joint) - rest.col(parent));
       rotation = rotation * Exp(pose.segment<3>(3 * joint));
       parent = joint;
     }
-    const Vector3d ankle = rest.col(kAnkle + side);
-    const Vector3d ball = rest.col(kFoot + side);
+    const Vector3d ankle = rest.col(kLeftAnkle + side);
+    const Vector3d ball = rest.col(kLeftFoot + side);
     const Vector3d heel_sole(ankle.x(), -1.1, -0.07);
     const Vector3d ball_sole(ball.x(), -1.1, ball.z());
     soles[2 * side] = place + rotation * (heel_sole - ankle);

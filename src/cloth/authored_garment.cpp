@@ -266,7 +266,10 @@ Garment Tailor::Upper(const UpperCut& cut) {
   if (cut.flare > 0.0) trunk.Flare(shoulder - hips[1], cut.flare);
   std::vector<SectionTube> sleeves;
   for (int side = 0; cut.sleeve > 0.0 && side < 2; ++side) {
-    sleeves.push_back(Tube({16 + side, 18 + side, 20 + side, 22 + side},
+    sleeves.push_back(Tube({kLeftShoulder + side,
+                            kLeftElbow + side,
+                            kLeftWrist + side,
+                            kLeftHand + side},
                            Joint(kLeftShoulder + side),
                            Joint(kLeftWrist + side)));
     sleeves.back().Hang(cut.sleeve_narrowing, 0.1);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "invsim/base/joints.h"
 #include "invsim/base/random.h"
 #include "invsim/body/rotation.h"
 #include "invsim/fit/coverage.h"
@@ -27,9 +28,17 @@ constexpr double kClearlyBetter = 0.99;
 // Body heights a person may have against the points' largest extent.
 constexpr double kSmallestExtent = 0.3, kLargestExtent = 5;
 
-constexpr int kLeftShoulder = 16, kRightShoulder = 17;
-// Joints left alone in the coarse fit: feet, collars, wrists, hands.
-constexpr int kFineJoints[] = {7, 8, 10, 11, 13, 14, 20, 21, 22, 23};
+// Joints left alone in the coarse fit.
+constexpr int kFineJoints[] = {kLeftAnkle,
+                               kRightAnkle,
+                               kLeftFoot,
+                               kRightFoot,
+                               kLeftCollar,
+                               kRightCollar,
+                               kLeftWrist,
+                               kRightWrist,
+                               kLeftHand,
+                               kRightHand};
 
 Points Subsample(const Points& cloud, int count, std::uint64_t seed, int t) {
   const int n = static_cast<int>(cloud.cols());

@@ -3,24 +3,25 @@
 
 #include <utility>
 
+#include "invsim/base/joints.h"
+
 namespace invsim {
 namespace {
 
-enum Side { kLeft, kRight };
-constexpr int kPelvis = 0, kSpine = 3;
+constexpr int kLeft = 0, kRight = 1;  // sides
 // Among the starts of a leg.
 constexpr int kForward = 2, kBackward = 3;
 
 // A rotation of the left side as its mirror image.
-Vector3d Mirrored(Side side, double x, double y, double z) {
+Vector3d Mirrored(int side, double x, double y, double z) {
   return side == kLeft ? Vector3d(x, y, z) : Vector3d(x, -y, -z);
 }
 
 // In the T-pose the left arm points along +x, the face along +z: about -y it
 // comes forward, about -z down.
-Limb Arm(Side side) {
-  const int collar = side == kLeft ? 13 : 14, shoulder = collar + 3,
-            elbow = shoulder + 2, wrist = elbow + 2;
+Limb Arm(int side) {
+  const int collar = kLeftCollar + side, shoulder = kLeftShoulder + side,
+            elbow = kLeftElbow + side, wrist = kLeftWrist + side;
   Limb limb{{collar, shoulder, elbow, wrist}, {}};
   const Vector3d shoulders[] = {Mirrored(side, 0, 0, 0),
                                 Mirrored(side, 0, 0, -1.25),
@@ -52,8 +53,9 @@ Limb Both(const Limb& a, const Limb& b) {
 }
 
 // About -x the thigh comes forward, about +x the shank goes back.
-Limb Leg(Side side) {
-  const int hip = side == kLeft ? 1 : 2, knee = hip + 3, ankle = knee + 3;
+Limb Leg(int side) {
+  const int hip = kLeftHip + side, knee = kLeftKnee + side,
+            ankle = kLeftAnkle + side;
   Limb limb{{hip, knee, ankle}, {}};
   const auto add = [&](const Vector3d& h, double bend) {
     limb.starts.push_back(
@@ -73,7 +75,7 @@ Limb BothLegs() {
   Limb right = Leg(kRight);
   std::swap(right.starts[kForward], right.starts[kBackward]);
   Limb legs = Both(Leg(kLeft), right);
-  legs.joints.insert(legs.joints.end(), {kPelvis, kSpine});
+  legs.joints.insert(legs.joints.end(), {kPelvis, kSpine1});
   return legs;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "invsim/base/joints.h"
 #include "invsim/body/mannequin.h"
 #include "invsim/cloth/authored_garment.h"
 #include "invsim/cloth/named_materials.h"
@@ -18,7 +19,6 @@ namespace invsim {
 namespace {
 
 constexpr int kMostFrames = 24;
-constexpr int kLeftShoulder = 16, kRightShoulder = 17;  // SMPL's joints
 
 BodyParameters Scaled(const BodyParameters& to, double s) {
   BodyParameters p;

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "invsim/base/joints.h"
 #include "invsim/base/types.h"
 
 namespace invsim {
@@ -17,13 +18,6 @@ struct TPoseBody {
   Points joints;     // 3 x 24
   MatrixXd weights;  // V x 24 skinning weights, rows sum to one
 };
-
-// Joints by SMPL's numbers; the right one of a pair is the next.
-inline constexpr int kPelvis = 0, kLeftHip = 1, kSpine1 = 3, kLeftKnee = 4,
-                     kSpine2 = 6, kLeftAnkle = 7, kSpine3 = 9, kLeftFoot = 10,
-                     kNeck = 12, kLeftCollar = 13, kHead = 15,
-                     kLeftShoulder = 16, kLeftElbow = 18, kLeftWrist = 20,
-                     kLeftHand = 22;
 
 // Throws InputError, one line, unless the arrays fit together, the mesh is
 // closed and outward, and the joints stand in a T-pose: head above neck above

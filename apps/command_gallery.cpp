@@ -50,10 +50,10 @@ void Describe(OptionTable* table, GalleryOptions* o) {
              {.doc = "of a map: each row and column of so many, for a first "
                      "look",
               .at_least = 1});
-  table->Add("derivative",
-             &o->derivative,
-             {.doc = "also hold the derivative of the last frame against "
-                     "differences"});
+  table->Add(
+      "derivative",
+      &o->derivative,
+      {.doc = "also hold the derivative of a frame against differences"});
 }
 
 class GalleryCommand : public Command {

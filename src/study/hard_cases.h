@@ -41,8 +41,8 @@ HardScene SheetOverBall(int cells = 10, double side = 0.35);
 // Two boards close on an upright sheet, faster than it falls, to a gap (the
 // cloth and its two clearances need 4 mm); then one slides along by 5 cm.
 HardScene SheetBetweenBoards(double gap);
-// Two boards in a V, crossing at the apex, that closes from 80 degrees on a
-// sheet hung in it.
+// Two boards in a V, touching at the apex, that closes from 80 degrees on an
+// upright sheet that falls into it.
 HardScene SheetInV(double degrees);
 // A garment with the placed shape as the rest shape.
 Garment AsGarment(const TriangleMesh& mesh);

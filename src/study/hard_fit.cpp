@@ -109,7 +109,6 @@ HardFitOutcome RunHardFit(HardFit fit) {
                  fit.clouds,
                  kFitRate,
                  fit.start};
-  scene.optimize = fit.optimize;
   outcome.result = FitSequence(scene, fit.fit, observer);
   if (fit.truth) {
     if (fit.start)

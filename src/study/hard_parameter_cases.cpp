@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hard_cases.h"
+#include "invsim/base/joints.h"
 #include "invsim/base/random.h"
 #include "invsim/body/mannequin.h"
 #include "invsim/cloth/authored_garment.h"
@@ -37,6 +38,7 @@ HardScene Dressed(const BodyParameters& from, const BodyParameters& to) {
   scene.material = {
       "jersey", 0.2, IsotropicStretch{200, 0.3}, IsotropicBending{1e-5}};
   scene.body = {body.Vertices(from), body.faces()};
+  scene.limits.contacts = 1;
   scene.frames = kMoving + 2;
   scene.body_at = [&body, from, to](int frame) {
     const double s = std::min(frame, kMoving) / static_cast<double>(kMoving);
@@ -101,28 +103,28 @@ void AddParameterCases(std::vector<HardCase>* cases) {
   };
   const char* caught =
       "cloth that was caught where the body overlaps itself is led out slowly";
-  // SMPL's joints: 4 left knee, 16 and 17 shoulders, 18 and 19 elbows, 9 chest.
   add("theta_0", "all rotations exactly zero", [] { return ToPose({}); });
   add("theta_2_pi", "the root turned by exactly 2 pi", FullTurn);
   // For a frame or two; how deep is by which edge it slips from.
   add("elbows_180",
       "elbows folded by 180 degrees",
       [] {
-        return ToPose(
-            {{18, Vector3d(0, -EIGEN_PI, 0)}, {19, Vector3d(0, EIGEN_PI, 0)}});
+        return ToPose({{kLeftElbow, Vector3d(0, -EIGEN_PI, 0)},
+                       {kRightElbow, Vector3d(0, EIGEN_PI, 0)}});
       },
       caught,
       {.penetration = 0.01});
   add("shoulders_180",
       "arms turned by 180 degrees, across the body",
       [] {
-        return ToPose(
-            {{16, Vector3d(0, -EIGEN_PI, 0)}, {17, Vector3d(0, EIGEN_PI, 0)}});
+        return ToPose({{kLeftShoulder, Vector3d(0, -EIGEN_PI, 0)},
+                       {kRightShoulder, Vector3d(0, EIGEN_PI, 0)}});
       },
       caught,
       {.penetration = 0.025});
   add("arms_pressed", "sleeves squeezed between arms and torso", [] {
-    return ToPose({{16, Vector3d(0, 0, -1.4)}, {17, Vector3d(0, 0, 1.4)}});
+    return ToPose({{kLeftShoulder, Vector3d(0, 0, -1.4)},
+                   {kRightShoulder, Vector3d(0, 0, 1.4)}});
   });
   add("beta_5", "shape coefficients of 5 and -5", [] { return ToShape(5); });
   add("beta_minus_5", "shape coefficients of -5 and 5", [] {

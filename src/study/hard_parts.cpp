@@ -124,6 +124,7 @@ Garment AsGarment(const TriangleMesh& mesh) {
 
 HardScene SceneOf(const TriangleMesh& cloth, TriangleMesh body) {
   HardScene scene;
+  scene.limits.contacts = body.faces.cols() > 0 ? 1 : 0;
   scene.body = std::move(body);
   scene.garment = AsGarment(cloth);
   scene.material = {
@@ -156,19 +157,22 @@ HardScene SheetBetweenBoards(double gap) {
 
 HardScene SheetInV(double degrees) {
   constexpr double kOpen = 80;
-  const TriangleMesh board =
-      Shifted(BoxMesh(Vector3d(0.02, 0.2, 0.2)), Vector3d(0, 0.18, 0));
+  // Inner faces meet in one line, so that the body never overlaps itself.
+  const Vector3d half(0.02, 0.2, 0.2);
+  const TriangleMesh left = Shifted(BoxMesh(half), Vector3d(-0.02, 0.2, 0));
+  const TriangleMesh right = Shifted(BoxMesh(half), Vector3d(0.02, 0.2, 0));
   HardScene scene =
       SceneOf(Shifted(Upright(SheetMesh(8, 0.2)), Vector3d(0, 0.18, 0)), {});
-  const auto v = [board](double opening) {
-    const double angle = 0.5 * opening * EIGEN_PI / 180;
-    const auto leaning = [&](double by) {
+  const auto v = [left, right](double opening) {
+    const auto leaning = [&](const TriangleMesh& board, double by) {
       return Turned(
           board, Eigen::AngleAxisd(by, Vector3d::UnitZ()).toRotationMatrix());
     };
-    return Joined(leaning(angle), leaning(-angle));
+    const double angle = 0.5 * opening * EIGEN_PI / 180;
+    return Joined(leaning(left, angle), leaning(right, -angle));
   };
   scene.body = v(kOpen);
+  scene.limits.contacts = 1;
   scene.frames = 60;
   scene.body_at = [v, degrees](int frame) {
     const double closed = std::min(frame, 40) / 40.0;

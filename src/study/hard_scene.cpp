@@ -60,12 +60,15 @@ Work ContactWork(const FrameRecord& record) {
   return work;
 }
 
-// Keeps the account of energy from frame to frame.
+// Keeps the account of energy from frame to frame: what the cloth has less what
+// contacts gave it only falls. A breach is a rise above the least it has been,
+// so that no loss makes room for a later gain.
 class EnergyAccount {
  public:
   EnergyAccount(const Simulator& simulator, const ClothState& state)
       : simulator_(simulator),
         first_(Total(state)),
+        least_(first_),
         // A cloth lifted by a millimetre is no drift.
         turnover_(kStandardGravity * simulator.mass().sum() * 1e-3) {}
 
@@ -74,10 +77,11 @@ class EnergyAccount {
     net_ += work.net;
     turnover_ += work.turnover;
     const double kinetic = simulator_.KineticEnergy(state);
-    const double gain = Total(state) - first_ - net_;
+    const double total = Total(state);
+    least_ = std::min(least_, total - net_);
     const double scale =
-        turnover_ + std::max(kinetic, std::abs(first_ - Total(state)));
-    worst_ = std::max(worst_, gain / scale);
+        turnover_ + std::max(kinetic, std::abs(first_ - total));
+    worst_ = std::max(worst_, (total - net_ - least_) / scale);
   }
   double worst() const { return worst_; }
 
@@ -87,7 +91,7 @@ class EnergyAccount {
   }
 
   const Simulator& simulator_;
-  double first_, turnover_;
+  double first_, least_, turnover_;
   double net_ = 0, worst_ = 0;
 };
 
@@ -235,6 +239,10 @@ std::vector<Breach> Judge(const HardScene& scene,
   if (!(o.energy <= limits.energy))
     fail("energy", "energy gained from nowhere: ", o.energy);
   if (!(o.creep <= limits.creep)) fail("creep", "creep of ", o.creep, " m");
+  if (o.step.most_contacts < limits.contacts)
+    fail("contacts", "only ", o.step.most_contacts, " contacts");
+  const std::string amiss = scene.check ? scene.check(o.step) : "";
+  if (!amiss.empty()) fail("check", amiss);
   if (o.misplaced > 0) fail("misplaced", o.misplaced, " vertices misplaced");
   if (o.crossings > 0 && HasEffect(scene, "self_contact"))
     fail("crossing", o.crossings, " pairs of faces cross");

@@ -65,10 +65,6 @@ TriangleMesh Draw::Sheet() {
   if (Chance(0.15)) {
     sliver = Log(1e-4, 0.1);
     Say("slivers 1:", 1 / sliver);
-    if (sliver < 0.01) {
-      scene_.options.step.max_halvings = 0;
-      scene_.options.step.friction.retries = 0;
-    }
   }
   TriangleMesh mesh = GridMesh(Lines(nx, x, 0), Lines(nz, z, sliver));
   if (sliver > 0 || !Chance(0.5)) return mesh;
@@ -346,9 +342,6 @@ std::string KnownBorder(const RandomScene& drawn,
     return "cloth stopped on its way through cloth strains its neighbours";
   if (outcome.step.missed > 0)
     return "steps above the contact tolerance do not balance";
-  // That of slivers; see Draw::Sheet.
-  if (drawn.scene.options.step.max_halvings == 0)
-    return "slivers whose steps are not halved";
   if (outcome.closed > 0)
     return "faces closed to lines or folded through, where bending has no "
            "angle";

@@ -5,6 +5,8 @@
 
 #include <ostream>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "invsim/report/fit_report.h"
 #include "test_name.h"
@@ -44,6 +46,27 @@ TEST(HardFitCases, NamesAreUnique) {
   std::set<std::string> names;
   for (const HardFitCase& hard : HardFitCases())
     EXPECT_TRUE(names.insert(hard.name).second) << hard.name;
+}
+
+HardFit Fit(const char* name) {
+  for (const HardFitCase& hard : HardFitCases())
+    if (hard.name == name) return hard.make();
+  throw std::logic_error(name);
+}
+
+TEST(RunHardFit, SeesABodyThatIsElsewhere) {
+  HardFit fit = Fit("data/two_frames");
+  for (Vector3d& t : fit.truth->translations) t.x() += 0.05;
+  const HardFitOutcome outcome = RunHardFit(std::move(fit));
+  ASSERT_EQ(outcome.broken.size(), 1u);
+  EXPECT_EQ(outcome.broken[0].rfind("body off by", 0), 0u);
+}
+
+TEST(RunHardFit, SeesAnotherEnd) {
+  HardFit fit = Fit("optimiser/fails_for_good");
+  fit.ends = {Termination::kConverged};
+  fit.usable = true;
+  EXPECT_EQ(RunHardFit(std::move(fit)).broken.size(), 2u);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(RunHardScene, SeesStepsThatMissTheTolerance) {
 }
 
 TEST(RunHardScene, SeesEnergyFromNowhere) {
-  // Negative damping: the air drags the cloth along without being a body.
+  // The wind drags the cloth along without being a body.
   HardScene scene = Scene("material/undamped");
   scene.frames = 20;
   scene.options.effects.push_back("air_drag");
@@ -87,6 +87,23 @@ TEST(RunHardScene, SeesEnergyFromNowhere) {
   const HardOutcome outcome = RunHardScene(scene, false);
   EXPECT_GT(outcome.energy, 0.1);
   EXPECT_FALSE(outcome.broken.empty());
+}
+
+// What falling cloth loses is no room for what a wind gives it afterwards.
+TEST(RunHardScene, SeesEnergyGainedAfterALoss) {
+  HardScene scene = Scene("contact/all_in_contact");
+  scene.frames = 40;
+  scene.garment.placed.row(1).array() += 0.1;
+  EXPECT_LT(RunHardScene(scene, false).energy, scene.limits.energy);
+  scene.options.effects.push_back("air_drag");
+  OptionTable table;
+  Describe(&table, &scene.options);
+  Config config;
+  config.Set("effects.air_drag.wind", "[5, 0, 0]", "test");
+  config.Set("contact.friction", "0", "test");
+  table.Read(config);
+  const HardOutcome outcome = RunHardScene(scene, false);
+  EXPECT_GT(outcome.energy, scene.limits.energy);
 }
 
 // Without self-contact layers thrown at each other go through each other,
@@ -110,10 +127,28 @@ TEST(RunHardScene, SeesThatNoDerivativeWasCompared) {
   HardScene scene = Scene("contact/mu_1");
   scene.frames = 4;
   scene.garment.placed.row(1).array() += 1;
+  scene.limits.contacts = 0;
   const HardOutcome outcome = RunHardScene(scene);
   EXPECT_EQ(outcome.columns, 0);
   ASSERT_EQ(outcome.broken.size(), 1u);
   EXPECT_EQ(outcome.broken[0].limit, "derivative");
+}
+
+TEST(RunHardScene, SeesThatNothingWasTouched) {
+  HardScene scene = Scene("contact/mu_1");
+  scene.frames = 4;
+  scene.garment.placed.row(1).array() += 1;
+  const HardOutcome outcome = RunHardScene(scene, false);
+  ASSERT_EQ(outcome.broken.size(), 1u);
+  EXPECT_EQ(outcome.broken[0].limit, "contacts");
+}
+
+TEST(RunHardScene, SeesThatTheSceneDidNotComeToItsPoint) {
+  HardScene scene = Scene("contact/stick_slip");
+  scene.options.contact.friction = 5;  // it only sticks
+  const HardOutcome outcome = RunHardScene(scene, false);
+  ASSERT_EQ(outcome.broken.size(), 1u);
+  EXPECT_EQ(outcome.broken[0].limit, "check");
 }
 
 TEST(RunHardScene, SeesCreep) {

@@ -17,15 +17,16 @@
 //   energy       nothing but the body gives energy to the cloth. Implicit
 //                Euler with K >= the Hessian of E obeys
 //                  T_1 + E_1 <= T_0 + E_0 + dt sum_i r_i . v_i ,
-//                r_i the contact forces; the largest breach over the scene is
-//                reported relative to the energy that went about in it
+//                r_i the contact forces; the largest rise above the least so
+//                far is reported relative to the energy that went about
 //   crossing     with self-contact, no faces cross that did not at the start
 //   derivative   d(cloth)/d(body) of the last frame in which a column can be
 //                compared agrees with differences, for columns whose contacts
 //                stay as they are
 //
 // and, where a scene has them, limits of its own (creep at rest, vertices that
-// end on the wrong side of a wall).
+// end on the wrong side of a wall), and that it came to what it is there for
+// (contacts at all, sticking as well as sliding).
 
 #include <cstdint>
 #include <functional>
@@ -46,6 +47,9 @@ struct HardLimits {
   double derivative = 1e-5;   // relative, at the best step of differences
   double creep = std::numeric_limits<double>::infinity();  // m
   int missed = 0;                                          // steps
+  // Contacts with the body in a step, at the most, at least: a scene without
+  // shows nothing.
+  int contacts = 0;
   // Of the derivative, compared at least, where one is asked for.
   int columns = 1;
 };
@@ -72,6 +76,8 @@ struct HardScene {
   std::vector<double> difference_steps;
   // How many vertices are where no physics takes them; empty: not asked.
   std::function<int(const Points& cloth, const Points& body)> misplaced;
+  // What the scene is there for and did not come to; empty: it did.
+  std::function<std::string(const StepStats&)> check;
   HardLimits limits;
 };
 

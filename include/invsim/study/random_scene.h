@@ -8,8 +8,7 @@
 // what fails once is made again from its seed alone.
 //
 //   cloth      a sheet, slivers down to 1:10,000, a ring, a triangle, two
-//              layers; level or turned; 3 to 40 cm. Beyond slivers of 1:100
-//              steps are not tried again: that does not help, only takes long
+//              layers; level or turned; 3 to 40 cm
 //   material   membrane 1 to 1e6 N/m, isotropic or up to 1:1000 between the
 //              axes, bending 0 or 1e-7 to 1 N m, density 0.01 to 10 kg/m^2
 //   effects    damping of mass (0.1 to 1e4 1/s), of stretch (1e-4 to 1 s), air,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "invsim/base/error.h"
 #include "invsim/base/interrupt.h"
@@ -66,16 +68,56 @@ Difference Extrapolated(const Difference& coarse,
 // unchanged contacts before all others.
 class ColumnCheck {
  public:
-  ColumnCheck(int parameter, const VectorXd& column, double floor)
-      : column_(column), floor_(floor) {
+  // `still`: measured against that if the difference is less.
+  ColumnCheck(const GradientCheckOptions& options,
+              int parameter,
+              const VectorXd& column,
+              double still)
+      : column_(column), still_(still), noise_(options.noise) {
     result_.parameter = parameter;
     result_.norm = column.norm();
+    faint_ = result_.norm <= Noise(*std::max_element(options.steps.begin(),
+                                                     options.steps.end()));
+  }
+
+  // The differences come from the longest step to the shortest. What a column
+  // is off by one, unless the two are lost in what the solver leaves open.
+  std::optional<double> Add(Difference d, double step) {
+    const double moved = d.value.norm(), noise = Noise(step);
+    if (faint_ && moved <= noise) return std::nullopt;
+    const bool vanishes = std::max(result_.norm, moved) <= noise;
+    tells_ = tells_ || (d.same && !vanishes);
+    const double error = Compare(d, step);
+    if (compared()) {
+      Compare(Extrapolated(last_, d, last_step_ / step), step);
+      jumps_ = d.bend > kJump * noise ||
+               (moved > kJump * noise &&
+                step * moved > 0.5 * last_step_ * last_.value.norm());
+    }
+    last_ = std::move(d);
+    last_step_ = step;
+    return error;
+  }
+
+  bool compared() const { return last_step_ > 0; }
+
+  GradientColumn result() const {
+    GradientColumn result = result_;
+    // Whatever was compared straddles two pieces.
+    if (!tells_ || (jumps_ && noise_ > 0)) result.switched = true;
+    return result;
+  }
+
+ private:
+  // Of a difference, what the solver leaves open.
+  double Noise(double step) const {
+    return noise_ / step * std::sqrt(static_cast<double>(column_.size()));
   }
 
   double Compare(const Difference& d, double step) {
     const double error =
         (column_ - d.value).norm() /
-        std::max({d.value.norm(), floor_, std::numeric_limits<double>::min()});
+        std::max({d.value.norm(), still_, std::numeric_limits<double>::min()});
     double* least = d.same ? &best_ : &best_switched_;
     if (error >= *least) return error;
     *least = error;
@@ -87,14 +129,12 @@ class ColumnCheck {
     return error;
   }
 
-  // Whatever was compared straddles two pieces.
-  void Straddles() { result_.switched = true; }
-
-  const GradientColumn& result() const { return result_; }
-
- private:
   VectorXd column_;
-  double floor_;
+  double still_, noise_;
+  bool faint_ = false;  // compared are only differences that tell something
+  bool tells_ = false, jumps_ = false;
+  Difference last_;
+  double last_step_ = 0;  // 0: nothing compared yet
   GradientColumn result_;
   double best_ = std::numeric_limits<double>::infinity();
   double best_switched_ = std::numeric_limits<double>::infinity();
@@ -161,43 +201,20 @@ GradientCheck CheckFrameGradient(const GradientCheckOptions& options,
       ++check.still;
       continue;
     }
-    ColumnCheck column(
-        k, derivative.x.col(k), options.floor * body_columns.col(k).norm());
-    const double longest =
-        *std::max_element(options.steps.begin(), options.steps.end());
-    // Compared are only differences that tell something.
-    const bool faint = column.result().norm <=
-                       options.noise / longest *
-                           std::sqrt(static_cast<double>(derivative.x.rows()));
-    bool tells = false;
-    Difference last;
-    double last_step = 0;  // 0: nothing compared yet
-    bool jumps = false;
+    ColumnCheck column(options,
+                       k,
+                       derivative.x.col(k),
+                       options.floor * body_columns.col(k).norm());
     for (size_t s = 0; s < options.steps.size(); ++s) {
       const double h = options.steps[s];
-      Difference d = differ(k, h);
-      const double noise =
-          options.noise / h * std::sqrt(static_cast<double>(d.value.size()));
-      if (faint && d.value.norm() <= noise) continue;
-      const bool vanishes =
-          std::max(column.result().norm, d.value.norm()) <= noise;
-      tells = tells || (d.same && !vanishes);
-      errors[s].push_back(column.Compare(d, h));
-      if (last_step > 0) {
-        column.Compare(Extrapolated(last, d, last_step / h), h);
-        jumps = d.value.norm() > kJump * noise &&
-                h * d.value.norm() > 0.5 * last_step * last.value.norm();
-        jumps = jumps || d.bend > kJump * noise;
-      }
-      last = std::move(d);
-      last_step = h;
+      if (const std::optional<double> error = column.Add(differ(k, h), h))
+        errors[s].push_back(*error);
     }
-    if (!tells || (jumps && options.noise > 0)) column.Straddles();
-    const GradientColumn& result = column.result();
-    if (last_step == 0) {
+    if (!column.compared()) {
       ++check.still;
       continue;
     }
+    const GradientColumn result = column.result();
     check.switched += result.switched;
     Raise(result.error, result.switched ? &check.worst_switched : &check.worst);
     check.columns.push_back(result);
